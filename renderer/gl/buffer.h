@@ -1,0 +1,92 @@
+#pragma once
+
+#include "renderer/gl/object.h"
+
+#include <cstddef>
+#include <ranges>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace afterglow {
+
+/// A buffer of a size that does not change. Its bytes are zero at first.
+class GpuBuffer {
+public:
+    GpuBuffer() = default;
+    GpuBuffer(std::string_view label, std::size_t bytes);
+
+    GLuint id() const { return object_.id(); }
+    std::size_t bytes() const { return bytes_; }
+    bool empty() const { return bytes_ == 0; }
+    const std::string& label() const { return label_; }
+
+    /// Replaces the bytes from `offset` on. More than there is room for: std::logic_error.
+    template <class T>
+    void write(std::span<const T> values, std::size_t offset = 0) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        writeBytes(std::as_bytes(values), offset);
+    }
+    template <std::ranges::contiguous_range Values>
+    void write(const Values& values, std::size_t offset = 0) {
+        write(std::span<const std::ranges::range_value_t<Values>>(values), offset);
+    }
+
+    /// As many values as the buffer has room for.
+    template <class T>
+    std::vector<T> read() const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::vector<T> values(bytes_ / sizeof(T));
+        readBytes(std::as_writable_bytes(std::span(values)));
+        return values;
+    }
+
+private:
+    void writeBytes(std::span<const std::byte> bytes, std::size_t offset);
+    void readBytes(std::span<std::byte> bytes) const;
+
+    GlObject<BufferKind> object_;
+    std::string label_;
+    std::size_t bytes_ = 0;
+};
+
+/// A buffer that shaders see as an array of RGBA32UI texels of 16 bytes: a usamplerBuffer or a
+/// uimageBuffer (measured faster than a storage buffer on llvmpipe, and equal elsewhere).
+class TexelBuffer {
+public:
+    TexelBuffer() = default;
+    /// Room for `bytes`, rounded up to whole texels, at least one. Zero at first.
+    TexelBuffer(std::string_view label, std::size_t bytes);
+
+    GLuint texture() const { return texture_.id(); }
+    GLuint buffer() const { return buffer_.id(); }
+    std::size_t bytes() const { return buffer_.bytes(); }
+    const std::string& label() const { return buffer_.label(); }
+
+    /// Replaces the values from the first on. Grows when they do not fit, and then loses the rest
+    /// of what it held. Throws Error when there are more than the driver can address.
+    template <class T>
+    void write(std::span<const T> values) {
+        static_assert(sizeof(T) % 16 == 0, "a texel is 16 bytes; pad");
+        if (values.size_bytes() > bytes())
+            *this = TexelBuffer(std::string(label()), values.size_bytes());
+        buffer_.write(values);
+    }
+    template <std::ranges::contiguous_range Values>
+    void write(const Values& values) {
+        write(std::span<const std::ranges::range_value_t<Values>>(values));
+    }
+
+    template <class T>
+    std::vector<T> read() const {
+        return buffer_.read<T>();
+    }
+
+private:
+    GpuBuffer buffer_;
+    GlObject<TextureKind> texture_;
+};
+
+} // namespace afterglow

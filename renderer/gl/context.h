@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <glad/gl.h>
+
+namespace afterglow {
+
+/// An OpenGL 4.5 core context, current on this thread from construction to destruction.
+/// One at a time: a second one takes the thread from the first and does not give it back.
+class GlContext {
+public:
+    virtual ~GlContext() = default;
+    virtual std::string_view backend() const = 0; ///< "OSMesa", "EGL" or "GLFW"
+};
+
+enum class Backend {
+    Auto,   ///< EGL; if that fails, OSMesa
+    OsMesa, ///< Mesa's software renderer, without a display or a driver
+    Egl,    ///< a GPU's own driver where there is one, else Mesa without a surface
+};
+
+/// A context without a window. It has no default framebuffer that could be drawn into.
+/// Throws ContextError, one line that names the library or version that is missing.
+std::unique_ptr<GlContext> createHeadlessContext(Backend backend = Backend::Auto);
+
+/// What every back end does once its context is current: loads the functions, checks for 4.5, sends
+/// the driver's messages to the log as they happen, puts row 0 at the top (glClipControl) with
+/// depth in [0, 1], and packs pixels without padding. Throws ContextError.
+void initializeGl(GLADloadfunc load, std::string_view backend);
+
+/// Messages so far, over all contexts of the process, that mean this program uses OpenGL wrongly or
+/// badly: errors, undefined or deprecated behavior, performance.
+int glMessageCount();
+
+struct GlInfo {
+    std::string vendor, renderer, version, backend;
+    bool softwareRasterizer; ///< the CPU draws: timer queries are useless, image loads are fast
+    int computeImageUnits;   ///< images one compute shader may use
+};
+GlInfo glInfo(const GlContext& context);
+
+} // namespace afterglow

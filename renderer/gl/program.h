@@ -1,0 +1,141 @@
+#pragma once
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/shader_source.h"
+#include "renderer/gl/texture.h"
+
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afterglow {
+
+/// A texture, or a buffer seen as texels, under the name that the shader knows it by. For the
+/// duration of a call.
+struct Binding {
+    Binding(std::string_view shaderName, const GpuTexture& source)
+        : name(shaderName), texture(&source) {}
+    Binding(std::string_view shaderName, const TexelBuffer& source)
+        : name(shaderName), buffer(&source) {}
+
+    std::string_view name;
+    const GpuTexture* texture = nullptr; ///< one of the two
+    const TexelBuffer* buffer = nullptr;
+};
+
+/// Whether a name that a program does not use is std::logic_error. On from the start in builds that
+/// take shaders from the source folder, and in tests; off elsewhere, since a driver may drop a
+/// texture that it proves unused, and drivers prove different things.
+void setStrictBindings(bool strict);
+
+/// What a linked program needs from outside: its textures by name, and one block named Params.
+/// Units and sizes are asked from the driver; they are written nowhere else.
+class LinkedProgram {
+public:
+    struct Stage {
+        GLenum type; ///< GL_COMPUTE_SHADER, ...
+        const ExpandedShader& source;
+    };
+    /// Throws Error "lib/bad.glsl:3: no function with name 'dott'".
+    LinkedProgram(std::string_view name, std::initializer_list<Stage> stages);
+
+    GLuint id() const { return program_.id(); }
+    const std::string& name() const { return name_; }
+
+    /// `reads` may be samplers or images in the shader, `writes` are images.
+    /// Throws std::logic_error when a name is missing, surplus (see setStrictBindings), given
+    /// twice, or of another kind than the shader declares.
+    void bind(std::span<const Binding> reads, std::span<const Binding> writes);
+    /// std::logic_error unless it is of the size of the block; no bytes for no block.
+    void setParams(std::span<const std::byte> params);
+
+private:
+    struct Slot {
+        std::string name;
+        GLenum type; ///< GL_SAMPLER_2D, GL_UNSIGNED_INT_IMAGE_BUFFER, ...
+        GLint unit;
+    };
+
+    void reflect();
+    const Slot* find(std::string_view name) const;
+    void bindOne(const Slot& slot, const Binding& binding, bool written) const;
+    std::string slotNames() const;
+
+    std::string name_;
+    GlObject<ProgramKind> program_;
+    GpuBuffer params_;
+    std::vector<Slot> slots_;
+};
+
+/// A compute shader, its textures and its one parameter block.
+///
+/// The shader has `layout(std140, binding = kPassBlock) uniform Params { ... };` or no parameters.
+/// A block at kFrameBlock belongs to whoever owns the frame and stays as it is bound.
+class ComputeProgram {
+public:
+    ComputeProgram(std::string_view name, const ExpandedShader& source);
+
+    /// Runs it over `size` threads or a little more, in whole workgroups, and lets later commands
+    /// see what it wrote. Throws std::logic_error as LinkedProgram does.
+    template <class Params>
+    void dispatch(glm::ivec2 size, const Params& params, std::initializer_list<Binding> reads,
+                  std::initializer_list<Binding> writes) {
+        static_assert(std::is_trivially_copyable_v<Params>);
+        static_assert(sizeof(Params) % 16 == 0, "GLSL rounds block sizes up to 16 bytes; pad");
+        dispatchBytes(size, std::as_bytes(std::span(&params, 1)), reads, writes);
+    }
+    void dispatch(glm::ivec2 size, std::initializer_list<Binding> reads,
+                  std::initializer_list<Binding> writes) {
+        dispatchBytes(size, {}, reads, writes);
+    }
+
+    glm::ivec3 groupSize() const { return groupSize_; } ///< threads in a workgroup
+    const std::string& name() const { return program_.name(); }
+    GLuint id() const { return program_.id(); }
+
+private:
+    void dispatchBytes(glm::ivec2 size, std::span<const std::byte> params,
+                       std::span<const Binding> reads, std::span<const Binding> writes);
+
+    LinkedProgram program_;
+    glm::ivec3 groupSize_{1};
+};
+
+/// A vertex and a fragment shader. Draw calls and their state are the caller's.
+class RasterProgram {
+public:
+    RasterProgram(std::string_view name, const ExpandedShader& vertexSource,
+                  const ExpandedShader& fragmentSource);
+
+    /// Makes it current, with its textures and its parameters in place.
+    template <class Params>
+    void use(const Params& params, std::initializer_list<Binding> reads = {}) {
+        static_assert(std::is_trivially_copyable_v<Params>);
+        static_assert(sizeof(Params) % 16 == 0, "GLSL rounds block sizes up to 16 bytes; pad");
+        useBytes(std::as_bytes(std::span(&params, 1)), reads);
+    }
+    void use(std::initializer_list<Binding> reads = {}) { useBytes({}, reads); }
+
+    /// A uniform outside any block, for what changes from draw to draw. A name that the program
+    /// does not have is std::logic_error where bindings are strict.
+    void set(std::string_view uniform, int value);
+    void set(std::string_view uniform, std::uint32_t value);
+    void set(std::string_view uniform, float value);
+    void set(std::string_view uniform, glm::vec2 value);
+    void set(std::string_view uniform, glm::vec4 value);
+    void set(std::string_view uniform, const glm::mat4& value);
+
+    const std::string& name() const { return program_.name(); }
+    GLuint id() const { return program_.id(); }
+
+private:
+    void useBytes(std::span<const std::byte> params, std::span<const Binding> reads);
+    GLint location(std::string_view uniform) const;
+
+    LinkedProgram program_;
+};
+
+} // namespace afterglow

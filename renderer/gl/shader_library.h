@@ -1,0 +1,69 @@
+#pragma once
+
+#include "renderer/gl/context.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/shader_source.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afterglow {
+
+/// Programs by the names of their files. Each is compiled when it is first asked for; the reference
+/// stays good for the life of the library, over reload() too.
+class ShaderLibrary {
+public:
+    /// `common` defines go to every program, before its own.
+    explicit ShaderLibrary(ShaderSource source, Defines common = {});
+
+    /// "denoise/atrous.comp", once for each set of defines. Throws Error when it does not compile.
+    ComputeProgram& compute(std::string_view name, const Defines& defines = {});
+    RasterProgram& raster(std::string_view vertexName, std::string_view fragmentName);
+
+    struct ReloadReport {
+        int reloaded = 0; ///< programs replaced by this call
+        std::vector<std::string>
+            errors; ///< of all programs whose files do not compile as they stand
+    };
+    /// Compiles the programs whose files are not as they were. One that does not compile stays as
+    /// it was, and its error is in every report until its files are mended. Nothing to do when
+    /// embedded.
+    ReloadReport reload();
+
+    const ShaderSource& source() const { return source_; }
+    const Defines& common() const { return common_; }
+
+private:
+    template <class Program>
+    struct Entry {
+        std::vector<std::string> files; ///< one a stage
+        Defines defines;
+        std::string tried; ///< the text that was last compiled, or failed to
+        std::string error; ///< empty unless that failed
+        std::unique_ptr<Program> program;
+    };
+    template <class Program>
+    using Entries = std::map<std::string, Entry<Program>>;
+
+    template <class Program>
+    Program& get(Entries<Program>& entries, std::vector<std::string> files, const Defines& defines);
+    template <class Program>
+    void reload(Entries<Program>& entries, ReloadReport& report);
+    std::vector<ExpandedShader> expand(const std::vector<std::string>& files,
+                                       const Defines& defines) const;
+
+    ShaderSource source_;
+    Defines common_;
+    Entries<ComputeProgram> compute_;
+    Entries<RasterProgram> raster_;
+};
+
+/// The shaders of the source folder in a build for development that still finds it, else those of
+/// the executable. Defines FETCH_BY_IMAGE where that is the faster way to read a texture: see
+/// shaders/lib/fetch.glsl.
+ShaderLibrary makeShaderLibrary(const GlInfo& info);
+
+} // namespace afterglow

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "renderer/gl/object.h"
+#include "renderer/image/image.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace afterglow {
+
+enum class PixelFormat { R32F, RG32F, RGBA32F, RGBA16F, R32UI, RG32UI, RGBA32UI, RGBA8, Depth32F };
+
+struct FormatInfo {
+    GLenum internal, layout, type; ///< as OpenGL spells it; layout and type: how pixels are given
+    int bytes;                     ///< of one pixel on the device
+    std::string_view name;         ///< as in PixelFormat
+    bool isInteger;
+};
+FormatInfo info(PixelFormat format);
+
+/// A 2D texture with immutable storage and one mip level, fetched without filtering.
+/// What it holds at first is undefined.
+class GpuTexture {
+public:
+    GpuTexture() = default;
+    GpuTexture(std::string_view label, PixelFormat format, glm::ivec2 size);
+
+    GLuint id() const { return object_.id(); }
+    PixelFormat format() const { return format_; }
+    glm::ivec2 size() const { return size_; }
+    const std::string& label() const { return label_; }
+    std::size_t bytes() const; ///< on the device
+
+    /// All pixels, row 0 first. Pixel is one of float, glm::vec2, glm::vec4, std::uint32_t,
+    /// glm::uvec2, glm::uvec4, glm::u8vec4, with the components of the format; RGBA16F takes and
+    /// gives vec4, Depth32F float. Anything else, or another size, is std::logic_error.
+    template <class Pixel>
+    void write(const Image<Pixel>& image);
+    template <class Pixel>
+    Image<Pixel> read() const;
+
+    void clear(); ///< to zero
+
+private:
+    GlObject<TextureKind> object_;
+    std::string label_;
+    PixelFormat format_{};
+    glm::ivec2 size_{0};
+};
+
+} // namespace afterglow

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "renderer/image/image.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace afterglow {
+
+/// Which pixels count: those that are not 0.
+using Mask = Image<std::uint8_t>;
+
+/// The Rec. 709 luminance of every pixel. Alpha is ignored.
+Image<float> luminanceOf(const Image<glm::vec4>& image);
+
+/// How many pixels of a mask count.
+std::size_t countOf(const Mask& mask);
+
+// The measures below compare linear images of equal size. Of a color image they average over red,
+// green and blue of every pixel, and ignore alpha; for the error of luminance, pass luminanceOf().
+// With a mask only its pixels count, in every mean. Sums are in double precision. Images of unequal
+// size, or none that counts, are a std::logic_error. A NaN in an image that counts gives NaN.
+
+/// The root of the mean squared error, in the images' unit.
+double rmse(const Image<float>& image, const Image<float>& reference, const Mask* mask = nullptr);
+double rmse(const Image<glm::vec4>& image, const Image<glm::vec4>& reference,
+            const Mask* mask = nullptr);
+
+/// Relative mean squared error: the mean of (x - r)^2 / (r^2 + 0.01 m), where m is the mean of r^2.
+/// Without the second term a few dark pixels would outvote all others; being relative itself, it
+/// makes the measure independent of exposure. A black reference gives 0 if the image is black as
+/// well, else infinity.
+double relMse(const Image<float>& image, const Image<float>& reference, const Mask* mask = nullptr);
+double relMse(const Image<glm::vec4>& image, const Image<glm::vec4>& reference,
+              const Mask* mask = nullptr);
+
+/// Peak signal to noise ratio in dB: 20 log10(peak / rmse). Infinity for equal images.
+double psnr(const Image<float>& image, const Image<float>& reference, double peak = 1.0,
+            const Mask* mask = nullptr);
+double psnr(const Image<glm::vec4>& image, const Image<glm::vec4>& reference, double peak = 1.0,
+            const Mask* mask = nullptr);
+
+/// The mean over pixels of the standard deviation over time (of the population: divided by the
+/// number of frames): what an eye sees flicker while nothing changes. At least one frame.
+double flicker(const std::vector<Image<float>>& frames, const Mask* mask = nullptr);
+
+} // namespace afterglow

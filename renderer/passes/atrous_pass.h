@@ -1,0 +1,30 @@
+#pragma once
+
+#include "renderer/gl/shader_library.h"
+#include "renderer/passes/frame_context.h"
+#include "shared/denoise_params.h"
+
+namespace afterglow {
+
+/// One iteration of the edge-avoiding a-trous wavelet filter, guided by variance.
+/// Schied et al. 2017, section 4.4. See shaders/denoise/atrous.comp and docs/pipeline.md.
+class AtrousPass {
+public:
+    struct Inputs {
+        const GpuTexture& signal; ///< rgb: demodulated signal; a: variance of its luminance
+        const GpuTexture& guides; ///< xyz: world normal; w: depth, metres; 0 marks background
+        const GpuTexture& slope;  ///< dz/dx, dz/dy: metres per pixel
+    };
+    struct Outputs {
+        GpuTexture& filtered; ///< as Inputs::signal; never the same texture
+    };
+
+    AtrousPass(ShaderLibrary& shaders, Kernel kernel);
+    void run(FrameContext& frame, const Inputs& in, const Outputs& out,
+             const gpu::EdgeStopping& params);
+
+private:
+    ComputeProgram& program_;
+};
+
+} // namespace afterglow

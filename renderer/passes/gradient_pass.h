@@ -1,0 +1,71 @@
+#pragma once
+
+#include "renderer/gl/shader_library.h"
+#include "renderer/passes/frame_context.h"
+#include "shared/denoise_params.h"
+
+namespace afterglow {
+
+/// The temporal gradient at each stratum's sample, and the guides of the stratum.
+/// Schied et al. 2018, section 4.2. See shaders/denoise/gradient.comp and docs/pipeline.md.
+class GradientPass {
+public:
+    struct Inputs {
+        const GpuTexture& raw;
+        const GpuTexture& samples;
+        const GpuTexture& guides;
+        const GpuTexture& slope;
+    };
+    struct Outputs {
+        GpuTexture& gradient;     ///< delta, Delta, mean luminance, variance of luminance
+        GpuTexture& strataGuides; ///< as guides, per stratum
+        GpuTexture& strataSlope;  ///< as slope, per stratum
+    };
+
+    explicit GradientPass(ShaderLibrary& shaders);
+    void run(FrameContext& frame, const Inputs& in, const Outputs& out);
+
+private:
+    ComputeProgram& program_;
+};
+
+/// One a-trous iteration over delta and Delta on the grid of strata.
+/// Schied et al. 2018, section 4.3. See shaders/denoise/gradient_atrous.comp and docs/pipeline.md.
+class GradientAtrousPass {
+public:
+    struct Inputs {
+        const GpuTexture& gradient;
+        const GpuTexture& strataGuides;
+        const GpuTexture& strataSlope;
+    };
+    struct Outputs {
+        GpuTexture& filtered; ///< as Inputs::gradient; never the same texture
+    };
+
+    GradientAtrousPass(ShaderLibrary& shaders, Kernel kernel);
+    void run(FrameContext& frame, const Inputs& in, const Outputs& out,
+             const gpu::EdgeStopping& params);
+
+private:
+    ComputeProgram& program_;
+};
+
+/// Normalizes the filtered gradient. Schied et al. 2018, section 4.4.
+class LambdaPass {
+public:
+    struct Inputs {
+        const GpuTexture& gradient;
+    };
+    struct Outputs {
+        GpuTexture& lambda; ///< [0, 1], per stratum
+    };
+
+    explicit LambdaPass(ShaderLibrary& shaders);
+    void run(FrameContext& frame, const Inputs& in, const Outputs& out,
+             const gpu::GradientParams& params);
+
+private:
+    ComputeProgram& program_;
+};
+
+} // namespace afterglow

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "renderer/gl/shader_library.h"
+#include "renderer/passes/frame_context.h"
+#include "shared/denoise_params.h"
+
+namespace afterglow {
+
+/// Back-projects the history and blends the new sample into it with an alpha per pixel.
+/// Schied et al. 2017, section 4.1; Schied et al. 2018, section 4.4.
+/// Reads FrameUniforms::historyValid. See shaders/denoise/temporal.comp and docs/pipeline.md.
+class TemporalPass {
+public:
+    struct Inputs {
+        const GpuTexture& raw;
+        const GpuTexture& visibility;
+        const GpuTexture& previousVisibility;
+        const GpuTexture& guides;
+        const GpuTexture& previousGuides;
+        const GpuTexture& slope;
+        const GpuTexture& motion;
+        const GpuTexture& previousColor;
+        const GpuTexture& previousMoments;
+        const GpuTexture& lambda; ///< per stratum; not used where params.useLambda is 0
+    };
+    struct Outputs {
+        GpuTexture& accumulated;
+        GpuTexture& moments;
+        GpuTexture& control;
+    };
+
+    explicit TemporalPass(ShaderLibrary& shaders);
+    void run(FrameContext& frame, const Inputs& in, const Outputs& out,
+             const gpu::TemporalParams& params);
+
+private:
+    ComputeProgram& program_;
+};
+
+} // namespace afterglow

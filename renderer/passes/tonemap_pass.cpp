@@ -1,0 +1,13 @@
+#include "renderer/passes/tonemap_pass.h"
+
+namespace afterglow {
+
+TonemapPass::TonemapPass(ShaderLibrary& shaders) : program_(shaders.compute("post/tonemap.comp")) {}
+
+void TonemapPass::run(FrameContext& frame, const GpuTexture& composed, GpuTexture& display,
+                      const gpu::TonemapParams& params) {
+    const auto scope = frame.timer.scope("tone map");
+    program_.dispatch(display.size(), params, {{"composed", composed}}, {{"display", display}});
+}
+
+} // namespace afterglow

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "renderer/pipeline/settings.h"
+
+namespace afterglow {
+
+/// What a filter does in one frame. Filters differ in these values and in nothing else, so a
+/// difference between two pictures is a difference between two rows.
+struct DenoisePlan {
+    bool accumulate = false;    ///< temporal accumulation; without it the raw signal is shown
+    bool carrySamples = false;  ///< shade some of the last frame's samples again, with their seeds
+    bool useLambda = false;     ///< alpha per pixel, from the gradient of those samples
+    int gradientIterations = 0; ///< of the reconstruction of the gradient
+    int atrousIterations = 0;   ///< of the spatial filter, guided by variance; 0: none
+    int feedbackIteration = 0;  ///< whose result becomes the history; 0: the unfiltered blend
+
+    bool operator==(const DenoisePlan&) const = default;
+};
+
+DenoisePlan makePlan(Filter filter, const DenoiserSettings& settings);
+
+} // namespace afterglow

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "renderer/passes/composite_pass.h"
+#include "renderer/passes/lighting_pass.h"
+#include "renderer/passes/reference_pass.h"
+#include "renderer/passes/surface_pass.h"
+#include "renderer/passes/tonemap_pass.h"
+#include "renderer/passes/visibility_pass.h"
+#include "renderer/pipeline/denoiser.h"
+#include "renderer/pipeline/light_state.h"
+#include "renderer/resources/frame_data.h"
+
+#include <memory>
+#include <optional>
+
+namespace afterglow {
+
+/// Everything that comes from outside for one frame. The frame is a pure function of it, of the
+/// settings, of the scene and of the frames before.
+struct FrameInput {
+    Camera camera;
+    double seconds = 0.0;               ///< scene time
+    std::uint32_t frame = 0;            ///< frame number, rising by one; seeds follow from it
+    std::uint32_t seed = 0;             ///< of the whole run
+    std::span<const LightState> lights; ///< by light slot; missing ones are on at nominal power
+};
+
+struct FrameStats {
+    std::uint64_t rays = 0;            ///< traced in this frame
+    std::uint32_t gradientSamples = 0; ///< strata that hold one; 0 if the filter carries none
+    std::uint32_t invalidValues = 0;   ///< NaN or infinity replaced; 0 in every healthy frame
+};
+
+struct SceneStats {
+    std::size_t triangles = 0, instances = 0, lights = 0, lightTriangles = 0;
+    std::size_t bvhNodes = 0;
+    double bvhBuildMilliseconds = 0.0;
+};
+
+/// Owns the order of a frame. Needs a current OpenGL 4.5 context for all of its life.
+/// The renderer ends at a texture and never touches the default framebuffer.
+class Renderer {
+public:
+    Renderer(ShaderLibrary& shaders, const GlInfo& gl);
+    Renderer(Renderer&&) noexcept;
+    ~Renderer();
+
+    /// Uploads the scene and builds its trees; clears all histories.
+    void setScene(Scene scene);
+    const Scene& scene() const;
+    const SceneStats& sceneStats() const;
+
+    /// Any size from 1x1 to the largest texture; clears all histories if the size changes.
+    void resize(glm::ivec2 size);
+    glm::ivec2 size() const;
+    void resetHistory();
+
+    /// Renders one frame; returns the display image (RGBA8, sRGB-encoded, row 0 on top).
+    const GpuTexture& render(const FrameInput& input, const Settings& settings);
+
+    /// The converged image of one moment: the same pixel-centre surface samples, many samples of
+    /// the signal a pixel, averaged in 32-bit float. begin, then add as often as wanted, then
+    /// finish. All histories are lost: the images of a frame are next frame's history.
+    void beginReference(const FrameInput& input, const Settings& settings);
+    void addReferenceSamples(int count);
+    /// The mean so far as `filtered`, `color` and display image.
+    const GpuTexture& finishReference();
+
+    const RenderTargets& targets() const;
+    /// The denoised (or raw, or converged) demodulated signal of the last frame.
+    const GpuTexture& filteredSignal() const;
+    FrameStats readStats() const; ///< waits for the GPU
+    GpuTimer& timer();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace afterglow

@@ -1,0 +1,458 @@
+#include "renderer/pipeline/settings.h"
+
+#include "renderer/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace afterglow {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> kFilterNames{"none", "fixed", "svgf", "asvgf"};
+constexpr std::array<Filter, 4> kFilters{Filter::None, Filter::Fixed, Filter::Svgf, Filter::Asvgf};
+constexpr std::array<std::string_view, 3> kSignalNames{"shadows", "ao", "both"};
+constexpr std::array<std::string_view, 2> kKernelNames{"b3-5x5", "box-3x3"};
+constexpr std::array<std::string_view, 3> kLambdaFetchNames{"nearest", "bilinear", "max"};
+constexpr std::array<std::string_view, 3> kHistoryLawNames{"effective", "frames", "power"};
+constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
+
+constexpr std::string_view kSvgf = "Schied et al. 2017";
+constexpr std::string_view kAsvgf = "Schied et al. 2018";
+
+using D = DenoiserSettings;
+
+// One line a tunable. A test walks the table and the structs and fails when a member is missing.
+const std::array kFields{
+    Field{
+        "temporal",
+        "alpha",
+        "Alpha",
+        "Weight of the newest frame where nothing changed: small means little noise and much lag.",
+        "",
+        kSvgf,
+        0.005,
+        1.0,
+        true,
+        {},
+        [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.alpha; }},
+    Field{"temporal",
+          "alphaMoments",
+          "Alpha of the moments",
+          "The same for the moments of luminance, from which the variance is estimated.",
+          "",
+          kSvgf,
+          0.005,
+          1.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.alphaMoments; }},
+    Field{"temporal",
+          "maxHistory",
+          "Longest history",
+          "The history length is counted up to this.",
+          "frames",
+          "own choice",
+          1.0,
+          1024.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.maxHistory; }},
+    Field{"temporal", "historyLaw", "History law",
+          "How the history length follows alpha: the effective sample count, frames whatever "
+          "lambda is "
+          "(Q2VKPT), or cut by the tenth power of 1 - lambda (Q2RTX).",
+          "", "own choice: the exact count", 0.0, 2.0, false, kHistoryLawNames,
+          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.historyLaw; }},
+    Field{"temporal",
+          "depthTolerance",
+          "Depth tolerance",
+          "A surface is the same one as before if its depth differs by at most this many times the "
+          "change that its slope predicts over a pixel.",
+          "",
+          "own choice",
+          0.1,
+          10.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.depthTolerance; }},
+    Field{"temporal",
+          "normalTolerance",
+          "Normal tolerance",
+          "Least cosine between the normals of a surface in two frames.",
+          "",
+          "own choice",
+          0.0,
+          1.0,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.normalTolerance; }},
+    Field{"temporal",
+          "minHistory",
+          "Shortest history for variance",
+          "Below this the variance is estimated in space.",
+          "frames",
+          kSvgf,
+          1.0,
+          16.0,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.minHistory; }},
+
+    Field{"gradient",
+          "gradientIterations",
+          "Gradient iterations",
+          "A-trous iterations of the reconstruction of the temporal gradient.",
+          "",
+          kAsvgf,
+          0.0,
+          7.0,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientIterations; }},
+    Field{"gradient", "gradientKernel", "Gradient kernel", "Taps of each of these iterations.", "",
+          kAsvgf, 0.0, 1.0, false, kKernelNames,
+          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientKernel; }},
+    Field{"gradient", "lambdaFetch", "Lambda fetch",
+          "How lambda, known per 3x3 stratum, is fetched at a pixel: of its stratum, bilinear, or "
+          "the "
+          "largest of the 3x3 strata around.",
+          "", "own choice; largest as in the authors' code", 0.0, 2.0, false, kLambdaFetchNames,
+          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.lambdaFetch; }},
+    Field{"gradient",
+          "gradientSigmaLuminance",
+          "Sigma luminance (gradient)",
+          "Edge stop of the reconstruction, in standard deviations of the stratum's luminance.",
+          "",
+          kSvgf,
+          0.1,
+          64.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientEdges.sigmaLuminance; }},
+    Field{"gradient",
+          "gradientSigmaNormal",
+          "Sigma normal (gradient)",
+          "Edge stop of the reconstruction: exponent of the cosine between normals.",
+          "",
+          kSvgf,
+          1.0,
+          512.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientEdges.sigmaNormal; }},
+    Field{"gradient",
+          "gradientSigmaDepth",
+          "Sigma depth (gradient)",
+          "Edge stop of the reconstruction, in multiples of the depth change that the slope "
+          "predicts.",
+          "",
+          kSvgf,
+          0.05,
+          16.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientEdges.sigmaDepth; }},
+    Field{"gradient",
+          "deltaFloor",
+          "Delta floor",
+          "Where the filtered Delta is below it, lambda is 0: there is no light to speak of.",
+          "radiance",
+          "Schied 2018, released code",
+          0.0,
+          0.1,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.gradient.deltaFloor; }},
+    Field{"gradient",
+          "forceLambda",
+          "Force lambda",
+          "This lambda everywhere, in [0, 1]; negative: as measured.",
+          "",
+          "for experiments",
+          -1.0,
+          1.0,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.gradient.forceLambda; }},
+    Field{"gradient", "alwaysCarrySamples", "Always carry samples",
+          "Merges gradient samples also where the filter does not use them, so that filters can be "
+          "compared on the very same raw signal.",
+          "", "for experiments", 0.0, 1.0, false, kSwitchNames,
+          [](Settings& s) -> Field::Ref { return &s.denoiser.alwaysCarrySamples; }},
+
+    Field{"spatial",
+          "atrousIterations",
+          "A-trous iterations",
+          "Iterations of the spatial filter; each doubles the distance between taps.",
+          "",
+          kSvgf,
+          0.0,
+          7.0,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.atrousIterations; }},
+    Field{"spatial", "kernel", "Kernel", "Taps of each of these iterations.", "", kSvgf, 0.0, 1.0,
+          false, kKernelNames, [](Settings& s) -> Field::Ref { return &s.denoiser.kernel; }},
+    Field{"spatial",
+          "feedbackIteration",
+          "Feedback iteration",
+          "Whose result becomes the next frame's history; 0: the unfiltered blend.",
+          "",
+          kSvgf,
+          0.0,
+          7.0,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.feedbackIteration; }},
+    Field{"spatial",
+          "sigmaLuminance",
+          "Sigma luminance",
+          "Edge stop, in standard deviations of the local luminance.",
+          "",
+          kSvgf,
+          0.1,
+          64.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.edges.sigmaLuminance; }},
+    Field{"spatial",
+          "sigmaNormal",
+          "Sigma normal",
+          "Edge stop: exponent of the cosine between normals.",
+          "",
+          kSvgf,
+          1.0,
+          512.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.edges.sigmaNormal; }},
+    Field{"spatial",
+          "sigmaDepth",
+          "Sigma depth",
+          "Edge stop, in multiples of the depth change that the slope predicts.",
+          "",
+          kSvgf,
+          0.05,
+          16.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.denoiser.edges.sigmaDepth; }},
+
+    Field{"lighting", "signal", "Signal", "Which rays are traced and filtered, as one signal.", "",
+          kAsvgf, 0.0, 2.0, false, kSignalNames,
+          [](Settings& s) -> Field::Ref { return &s.lighting.signal; }},
+    Field{"lighting",
+          "aoRadius",
+          "Occlusion radius",
+          "Length of the ambient occlusion rays.",
+          "of the scene's extent",
+          "own choice",
+          0.001,
+          1.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.lighting.aoRadius; }},
+    Field{"lighting",
+          "signalClamp",
+          "Signal clamp",
+          "Upper bound of each channel of the raw signal; gradient and filter see the same bound.",
+          "radiance",
+          "own choice",
+          1.0,
+          10000.0,
+          true,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.lighting.signalClamp; }},
+
+    Field{"display",
+          "exposure",
+          "Exposure",
+          "Of the display image only; nothing is measured after it.",
+          "stops",
+          "own choice",
+          -8.0,
+          8.0,
+          false,
+          {},
+          [](Settings& s) -> Field::Ref { return &s.display.exposure; }},
+};
+
+std::string quotedList(std::span<const std::string_view> names) {
+    std::string list;
+    for (const std::string_view name : names)
+        list += (list.empty() ? "" : ", ") + std::string(name);
+    return list;
+}
+
+[[noreturn]] void throwUnknown(std::string_view kind, std::string_view name,
+                               std::span<const std::string_view> known) {
+    const std::string_view nearest = nearestName(name, known);
+    throw UsageError("no " + std::string(kind) + " named '" + std::string(name) + "'" +
+                     (nearest.empty() ? "" : "; did you mean '" + std::string(nearest) + "'?") +
+                     " (known: " + quotedList(known) + ")");
+}
+
+std::size_t indexOf(std::string_view kind, std::string_view name,
+                    std::span<const std::string_view> known) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end())
+        throwUnknown(kind, name, known);
+    return std::size_t(found - known.begin());
+}
+
+const Field& fieldByKey(std::string_view key) {
+    const auto found = std::ranges::find(kFields, key, &Field::key);
+    if (found == kFields.end()) {
+        std::vector<std::string_view> keys;
+        for (const Field& field : kFields)
+            keys.push_back(field.key);
+        throwUnknown("setting", key, keys);
+    }
+    return *found;
+}
+
+/// The shortest decimal that is this number, in its own precision.
+template <class Number>
+std::string shortNumber(Number value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return {text.data(), end};
+}
+
+void setNumber(Settings& settings, const Field& field, double value) {
+    if (!(value >= field.min && value <= field.max))
+        throw UsageError("setting '" + std::string(field.key) + "' is in [" +
+                         shortNumber(field.min) + ", " + shortNumber(field.max) + "], not " +
+                         shortNumber(value));
+    const Field::Ref ref = field.ref(settings);
+    if (float* const* number = std::get_if<float*>(&ref))
+        **number = float(value);
+    else if (value != std::floor(value))
+        throw UsageError("setting '" + std::string(field.key) + "' is a whole number, not " +
+                         shortNumber(value));
+    else
+        *std::get<int*>(ref) = int(value);
+}
+
+} // namespace
+
+std::string_view nameOf(Filter filter) {
+    return kFilterNames[std::size_t(filter)];
+}
+std::string_view nameOf(Signal signal) {
+    return kSignalNames[std::size_t(signal)];
+}
+
+std::string_view describe(Filter filter) {
+    switch (filter) {
+    case Filter::None: return "the raw signal: one sample per pixel, nothing filtered";
+    case Filter::Fixed: return "temporal accumulation with a fixed alpha, no spatial filter";
+    case Filter::Svgf:
+        return "SVGF: temporal accumulation and a spatial filter guided by variance (Schied et al. "
+               "2017)";
+    case Filter::Asvgf:
+        return "A-SVGF: SVGF with an alpha per pixel from temporal gradients (Schied et al. 2018)";
+    }
+    return {};
+}
+
+std::span<const Filter> allFilters() {
+    return kFilters;
+}
+Filter filterFromName(std::string_view name) {
+    return kFilters[indexOf("filter", name, kFilterNames)];
+}
+Signal signalFromName(std::string_view name) {
+    return Signal(indexOf("signal", name, kSignalNames));
+}
+
+std::span<const Field> fields() {
+    return kFields;
+}
+
+void setField(Settings& settings, std::string_view key, std::string_view value) {
+    const Field& field = fieldByKey(key);
+    if (!field.choices.empty()) {
+        setNumber(settings, field,
+                  double(indexOf("value of '" + std::string(key) + "'", value, field.choices)));
+        return;
+    }
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc() || end != value.data() + value.size())
+        throw UsageError("setting '" + std::string(key) + "' is a number, not '" +
+                         std::string(value) + "'");
+    setNumber(settings, field, number);
+}
+
+nlohmann::json toJson(const Settings& settings) {
+    nlohmann::json json;
+    json["filter"] = nameOf(settings.filter);
+    Settings copy = settings;
+    for (const Field& field : kFields) {
+        const Field::Ref ref = field.ref(copy);
+        if (float* const* number = std::get_if<float*>(&ref))
+            json[std::string(field.key)] = std::stod(shortNumber(**number));
+        else if (!field.choices.empty())
+            json[std::string(field.key)] = field.choices[std::size_t(*std::get<int*>(ref))];
+        else
+            json[std::string(field.key)] = *std::get<int*>(ref);
+    }
+    return json;
+}
+
+void applyJson(Settings& settings, const nlohmann::json& json) {
+    if (!json.is_object())
+        throw UsageError("settings are a JSON object, not " + std::string(json.type_name()));
+    Settings result = settings;
+    for (const auto& [key, value] : json.items()) {
+        if (key == "filter") {
+            if (!value.is_string())
+                throw UsageError("setting 'filter' is a name, not " + value.dump());
+            result.filter = filterFromName(value.get<std::string>());
+        } else if (value.is_string()) {
+            setField(result, key, value.get<std::string>());
+        } else if (value.is_number()) {
+            setNumber(result, fieldByKey(key), value.get<double>());
+        } else {
+            throw UsageError("setting '" + key + "' is a number or a name, not " + value.dump());
+        }
+    }
+    settings = result;
+}
+
+std::string_view nearestName(std::string_view name, std::span<const std::string_view> known) {
+    // Levenshtein distance, one row at a time.
+    const auto distance = [](std::string_view a, std::string_view b) {
+        std::vector<std::size_t> row(b.size() + 1);
+        std::iota(row.begin(), row.end(), std::size_t(0));
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            std::size_t diagonal = row[0];
+            row[0] = i + 1;
+            for (std::size_t j = 0; j < b.size(); ++j) {
+                const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+                diagonal = row[j + 1];
+                row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+            }
+        }
+        return row.back();
+    };
+    std::string_view nearest;
+    std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+    for (const std::string_view candidate : known)
+        if (const std::size_t d = distance(name, candidate); d < least) {
+            least = d;
+            nearest = candidate;
+        }
+    return nearest;
+}
+
+} // namespace afterglow

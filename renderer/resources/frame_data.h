@@ -1,0 +1,38 @@
+#pragma once
+
+#include "renderer/gl/buffer.h"
+#include "renderer/scene/camera.h"
+#include "shared/frame.h"
+
+#include <optional>
+
+namespace afterglow {
+
+/// The frame block. The only place where matrices of the frame before are kept.
+class FrameData {
+public:
+    FrameData();
+
+    /// What does not come from the camera is set here; matrices, strata and historyValid by
+    /// begin().
+    gpu::FrameUniforms uniforms{};
+
+    /// Starts a frame of `size` pixels seen by `camera`, uploads the block and binds it. Uniforms
+    /// that the caller sets must be in place.
+    void begin(const Camera& camera, glm::ivec2 size);
+    /// Uploads the block again after a change to `uniforms` within the frame.
+    void upload();
+    /// The frame becomes the previous one.
+    void end();
+    /// The next frame has no history.
+    void forget() { previous_.reset(); }
+
+private:
+    struct Matrices {
+        glm::mat4 clipFromWorld, viewFromWorld;
+    };
+    GpuBuffer buffer_;
+    std::optional<Matrices> previous_;
+};
+
+} // namespace afterglow

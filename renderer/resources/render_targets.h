@@ -1,0 +1,48 @@
+#pragma once
+
+#include "renderer/gl/framebuffer.h"
+#include "renderer/resources/history.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace afterglow {
+
+/// The number of strata that cover an image: ceil(size / 3).
+glm::ivec2 strataOf(glm::ivec2 size);
+
+/// Every screen-sized texture of the renderer: what it holds, how, and for how long. Contents are
+/// specified in docs/pipeline.md. Resize by assignment; nothing survives a resize.
+struct RenderTargets {
+    RenderTargets() = default;
+    explicit RenderTargets(glm::ivec2 size);
+
+    void swapHistories(); ///< current becomes previous; once, at the end of a frame
+    void clear();         ///< everything to zero
+    std::size_t bytes() const;
+    std::vector<const GpuTexture*> all() const;
+
+    glm::ivec2 size{0}, strata{0};
+
+    GpuTexture ids;   ///< RG32UI: instance + 1, triangle, as rasterized; 0 is background
+    GpuTexture depth; ///< of the raster pass, reversed
+    Framebuffer framebuffer;
+
+    History visibility, seeds, guides, raw, color, moments;
+    GpuTexture surface, slope, motion, albedo, emission;
+
+    GpuTexture owners;          ///< R32UI, strata: keys of forward projection
+    GpuTexture samples;         ///< RGBA32UI, strata
+    GpuTexture gradientSamples; ///< RGBA32F, strata: as measured
+    GpuTexture gradient[2];     ///< RGBA32F, strata: the reconstruction goes back and forth
+    GpuTexture strataGuides, strataSlope, lambda;
+
+    GpuTexture accumulated, control;
+    GpuTexture filtered[2];
+    GpuTexture composed; ///< RGBA32F: remodulated linear radiance
+    GpuTexture display;  ///< RGBA8: tone-mapped, sRGB-encoded
+    GpuTexture sum;      ///< RGBA32F: of reference samples
+    GpuTexture counters; ///< R32UI: shared/counters.h
+};
+
+} // namespace afterglow

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace afterglow {
+
+/// A glTF document that may be believed. All that the importer reads is there, of the right type,
+/// in range and without loops; the rest (extras, skins, pictures, other extensions) has been taken
+/// out.
+struct GltfDocument {
+    std::string json;                                ///< buffer i has the uri "i"
+    std::vector<std::vector<unsigned char>> buffers; ///< exactly as long as they say
+    std::vector<std::string> textures;               ///< a name for each, perhaps empty
+    std::vector<std::string> warnings;               ///< what is there but is left out
+};
+
+/// InputError, "path: cause", for everything that importGltf() refuses, but for the values in the
+/// buffers, which are not looked at here.
+GltfDocument readGltfDocument(const std::filesystem::path& path);
+
+} // namespace afterglow

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "renderer/scene/scene.h"
+
+#include <string_view>
+
+namespace afterglow {
+
+/// A scene made in code, by its name, or else a .gltf or .glb file, by its path. UsageError, with
+/// the nearest known name, for a name that is neither; InputError for a path to no good file.
+Scene loadScene(std::string_view nameOrPath);
+
+} // namespace afterglow

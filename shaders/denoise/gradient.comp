@@ -1,0 +1,60 @@
+#version 450 core
+
+// The temporal gradient at the sample of each stratum: the same surface point, shaded with the same
+// random numbers, now and one frame ago. Schied et al. 2018, section 4.2.
+// A stratum without a sample holds (0, 0): it adds nothing to numerator and denominator alike.
+
+#include "lib/fetch.glsl"
+#include "shared/bindings.h"
+
+layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
+
+Float4Texture(raw);    // a: luminance
+Uint4Texture(samples); // previous luminance, place in the stratum + 1
+Float4Texture(guides);
+Float2Texture(slope);
+
+writeonly uniform image2D gradient; // delta, Delta, mean luminance, variance of luminance
+writeonly uniform image2D strataGuides;
+writeonly uniform image2D strataSlope;
+
+void main() {
+    ivec2 s = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(s, sizeOf(samples))))
+        return;
+    ivec2 first = s * int(kStratumSize);
+    ivec2 last = sizeOf(raw) - 1;
+
+    vec2 change = vec2(0.0);
+    uvec4 carried = fetch(samples, s);
+    if (carried.y != 0u) {
+        uint place = carried.y - 1u;
+        float now = fetch(raw, first + ivec2(place % kStratumSize, place / kStratumSize)).a;
+        float before = uintBitsToFloat(carried.x);
+        change = vec2(now - before, max(now, before));
+    }
+
+    float values[9];
+    int count = 0;
+    float sum = 0.0;
+    ivec2 guidePixel = min(first + 1, last);
+    bool hasGuide = fetch(guides, guidePixel).w != 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 p = first + ivec2(i % 3, i / 3);
+        if (any(greaterThan(p, last)) || fetch(guides, p).w == 0.0)
+            continue;
+        guidePixel = hasGuide ? guidePixel : p;
+        hasGuide = true;
+        values[count] = fetch(raw, p).a;
+        sum += values[count];
+        ++count;
+    }
+    float mean = count == 0 ? 0.0 : sum / float(count);
+    float variance = 0.0;
+    for (int i = 0; i < count; ++i)
+        variance += (values[i] - mean) * (values[i] - mean) / float(count);
+
+    imageStore(gradient, s, vec4(change, mean, variance));
+    imageStore(strataGuides, s, hasGuide ? fetch(guides, guidePixel) : vec4(0.0));
+    imageStore(strataSlope, s, hasGuide ? vec4(fetch(slope, guidePixel).xy, 0.0, 0.0) : vec4(0.0));
+}

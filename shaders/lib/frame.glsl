@@ -1,0 +1,10 @@
+// The frame block.
+
+#include "shared/bindings.h"
+#include "shared/frame.h"
+
+layout(std140, binding = kFrameBlock) uniform Frame {
+    FrameUniforms frame;
+};
+
+#define bvhParams frame.bvh // lib/bvh_trace.glsl asks for it

@@ -1,0 +1,26 @@
+// Between pixels, view space and clip space.
+
+#include "lib/frame.glsl"
+
+// The point at view depth 1 behind a position in pixels.
+vec3 viewRay(vec2 pixel) {
+    vec2 size = vec2(frame.size);
+    vec2 ndc = vec2(2.0 * pixel.x / size.x - 1.0, 1.0 - 2.0 * pixel.y / size.y);
+    return vec3(ndc.x * frame.tanHalfFov * size.x / size.y, ndc.y * frame.tanHalfFov, -1.0);
+}
+
+// The same in world space: a step along it is a step of one metre in depth.
+vec3 worldRay(vec2 pixel) {
+    return transpose(mat3(frame.viewFromWorld)) * viewRay(pixel);
+}
+
+// The position in pixels of a point in clip space, w > 0.
+vec2 pixelOf(vec4 clip) {
+    vec2 ndc = clip.xy / clip.w;
+    return vec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * vec2(frame.size);
+}
+
+bool isInsideFrustum(vec4 clip) {
+    return clip.w > 0.0 && abs(clip.x) < clip.w && abs(clip.y) < clip.w && clip.z >= 0.0 &&
+           clip.z <= clip.w;
+}

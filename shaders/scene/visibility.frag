@@ -1,0 +1,9 @@
+#version 450 core
+
+uniform uint instance;
+
+layout(location = 0) out uvec2 ids; // instance + 1, triangle in its mesh; cleared to 0: background
+
+void main() {
+    ids = uvec2(instance + 1u, uint(gl_PrimitiveID));
+}

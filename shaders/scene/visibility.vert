@@ -1,0 +1,13 @@
+#version 450 core
+
+// One instance into the visibility buffer. Burns and Hunt 2013, "The Visibility Buffer".
+
+#include "lib/frame.glsl"
+
+layout(location = 0) in vec3 position; // object space, metres
+
+uniform mat4 worldFromObject;
+
+void main() {
+    gl_Position = frame.clipFromWorld * (worldFromObject * vec4(position, 1.0));
+}

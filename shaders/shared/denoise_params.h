@@ -1,0 +1,58 @@
+#pragma once
+#include "shared/interop.h"
+SHARED_BEGIN
+
+// Parameter blocks of the denoising passes. Meaning, range, unit and source of each value that a
+// user can set stand in renderer/pipeline/settings.cpp.
+
+// Widths of the edge-stopping functions. Schied et al. 2017, section 4.4, equations 3 to 5.
+struct EdgeStopping {
+    float sigmaLuminance; // in standard deviations of the local luminance
+    float sigmaNormal;    // exponent of the cosine between normals
+    float sigmaDepth;     // in multiples of the depth change that the local slope predicts
+    int step;             // distance between taps in pixels (or strata): 1, 2, 4, ...
+};
+
+// How lambda, known per stratum, is fetched at a pixel.
+const int kLambdaNearest = 0;
+const int kLambdaBilinear = 1;
+const int kLambdaMax = 2; // the largest of the 3x3 strata around
+
+// How the history length follows alpha.
+const int kHistoryEffective = 0; // 1/N' = (1 - a)^2 / N + a^2: the effective sample count, exact
+const int kHistoryFrames = 1;    // N' = N + 1: lambda is ignored, as in Q2VKPT
+const int kHistoryPower = 2;     // N' = N (1 - lambda)^10 + 1, as in Q2RTX
+
+struct TemporalParams {
+    float alpha;           // weight of the newest frame where nothing changed
+    float alphaMoments;    // the same for the moments
+    float maxHistory;      // frames
+    float depthTolerance;  // in multiples of the depth change that the local slope predicts
+    float normalTolerance; // least cosine between a surface's normals in two frames
+    int lambdaFetch;
+    int historyLaw;
+    int useLambda; // 0: lambda is 0 everywhere
+};
+
+struct GradientParams {
+    float deltaFloor;  // where the filtered Delta is below it, lambda is 0; radiance
+    float forceLambda; // in [0, 1]: this lambda everywhere; negative: measured
+    float unused0, unused1;
+};
+
+struct VarianceParams {
+    float sigmaNormal; // of the spatial estimate
+    float sigmaDepth;
+    float minHistory; // frames; below it the variance is estimated in space
+    float unused0;
+};
+
+// Why a pixel has no history, in the fourth channel of the control image.
+const int kHistoryKept = 0;
+const int kHistoryNone = 1;      // there is no previous frame
+const int kHistoryOffScreen = 2; // the surface was outside the picture
+const int kHistoryInstance = 3;  // another instance was seen there
+const int kHistoryDepth = 4;
+const int kHistoryNormal = 5;
+
+SHARED_END
