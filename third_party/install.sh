@@ -8,6 +8,7 @@ packages=(
     libglfw3-dev libglm-dev libimgui-dev libtinygltf-dev libstb-dev libtinyexr-dev
     nlohmann-json3-dev libcli11-dev python3-glad
     libosmesa6-dev libosmesa6 libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libgl1
+    fonts-roboto-unhinted
 )
 if [ "${1:-}" = --tests ]; then
     packages+=(doctest-dev libembree-dev glslang-tools xvfb xauth xdotool)

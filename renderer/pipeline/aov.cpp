@@ -216,14 +216,7 @@ const AovInfo& aovByName(std::string_view name) {
             return aov;
         known.push_back(aov.name);
     }
-    std::string message = "no AOV named '" + std::string(name) + "'";
-    if (const auto near = nearestName(name, known); !near.empty())
-        message += "; did you mean '" + std::string(near) + "'?";
-    message += " (known:";
-    for (std::string_view other : known)
-        message += (other == known.front() ? " " : ", ") + std::string(other);
-    message += ")";
-    throw UsageError(message);
+    throwUnknownName("AOV", name, known);
 }
 
 bool isMadeBy(const AovInfo& aov, Filter filter, const DenoiserSettings& settings) {

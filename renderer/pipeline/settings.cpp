@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -27,284 +26,113 @@ constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 constexpr std::string_view kSvgf = "Schied et al. 2017";
 constexpr std::string_view kAsvgf = "Schied et al. 2018";
 
-using D = DenoiserSettings;
+// Three or four lines a tunable. A test walks the table and the structs and fails when a member is
+// missing. clang-format would break it into one value a line.
+// clang-format off
+#define AFTERGLOW_FIELD(member) [](Settings& s) -> Field::Ref { return &s.member; }
+const std::array kFields = std::to_array<Field>({
+    {"temporal", "alpha", "Alpha",
+     "Weight of the newest frame where nothing changed: small means little noise and much "
+     "lag.",
+     "", kSvgf, 0.005, 1.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.alpha)},
+    {"temporal", "alphaMoments", "Alpha of the moments",
+     "The same for the moments of luminance, from which the variance is estimated.",
+     "", kSvgf, 0.005, 1.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.alphaMoments)},
+    {"temporal", "maxHistory", "Longest history",
+     "The history length is counted up to this.",
+     "frames", "own choice", 1.0, 1024.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.maxHistory)},
+    {"temporal", "historyLaw", "History law",
+     "How the history length follows alpha: the effective sample count, frames whatever "
+     "lambda is (Q2VKPT), or cut by the tenth power of 1 - lambda (Q2RTX).",
+     "", "own choice: the exact count", 0.0, 2.0, false, kHistoryLawNames,
+     AFTERGLOW_FIELD(denoiser.temporal.historyLaw)},
+    {"temporal", "depthTolerance", "Depth tolerance",
+     "A surface is the same one as before if its depth differs by at most this many times "
+     "the change that its slope predicts over a pixel.",
+     "", "own choice", 0.1, 10.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.depthTolerance)},
+    {"temporal", "normalTolerance", "Normal tolerance",
+     "Least cosine between the normals of a surface in two frames.",
+     "", "own choice", 0.0, 1.0, false, {}, AFTERGLOW_FIELD(denoiser.temporal.normalTolerance)},
+    {"temporal", "minHistory", "Shortest history for variance",
+     "Below this the variance is estimated in space.",
+     "frames", kSvgf, 1.0, 16.0, false, {}, AFTERGLOW_FIELD(denoiser.minHistory)},
 
-// One line a tunable. A test walks the table and the structs and fails when a member is missing.
-const std::array kFields{
-    Field{
-        "temporal",
-        "alpha",
-        "Alpha",
-        "Weight of the newest frame where nothing changed: small means little noise and much lag.",
-        "",
-        kSvgf,
-        0.005,
-        1.0,
-        true,
-        {},
-        [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.alpha; }},
-    Field{"temporal",
-          "alphaMoments",
-          "Alpha of the moments",
-          "The same for the moments of luminance, from which the variance is estimated.",
-          "",
-          kSvgf,
-          0.005,
-          1.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.alphaMoments; }},
-    Field{"temporal",
-          "maxHistory",
-          "Longest history",
-          "The history length is counted up to this.",
-          "frames",
-          "own choice",
-          1.0,
-          1024.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.maxHistory; }},
-    Field{"temporal", "historyLaw", "History law",
-          "How the history length follows alpha: the effective sample count, frames whatever "
-          "lambda is "
-          "(Q2VKPT), or cut by the tenth power of 1 - lambda (Q2RTX).",
-          "", "own choice: the exact count", 0.0, 2.0, false, kHistoryLawNames,
-          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.historyLaw; }},
-    Field{"temporal",
-          "depthTolerance",
-          "Depth tolerance",
-          "A surface is the same one as before if its depth differs by at most this many times the "
-          "change that its slope predicts over a pixel.",
-          "",
-          "own choice",
-          0.1,
-          10.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.depthTolerance; }},
-    Field{"temporal",
-          "normalTolerance",
-          "Normal tolerance",
-          "Least cosine between the normals of a surface in two frames.",
-          "",
-          "own choice",
-          0.0,
-          1.0,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.normalTolerance; }},
-    Field{"temporal",
-          "minHistory",
-          "Shortest history for variance",
-          "Below this the variance is estimated in space.",
-          "frames",
-          kSvgf,
-          1.0,
-          16.0,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.minHistory; }},
+    {"gradient", "gradientIterations", "Gradient iterations",
+     "A-trous iterations of the reconstruction of the temporal gradient.",
+     "", kAsvgf, 0.0, 7.0, false, {}, AFTERGLOW_FIELD(denoiser.gradientIterations)},
+    {"gradient", "gradientKernel", "Gradient kernel",
+     "Taps of each of these iterations.",
+     "", kAsvgf, 0.0, 1.0, false, kKernelNames, AFTERGLOW_FIELD(denoiser.gradientKernel)},
+    {"gradient", "lambdaFetch", "Lambda fetch",
+     "How lambda, known per 3x3 stratum, is fetched at a pixel: of its stratum, bilinear, or"
+     " the largest of the 3x3 strata around.",
+     "", "own choice; largest as in the authors' code", 0.0, 2.0, false, kLambdaFetchNames,
+     AFTERGLOW_FIELD(denoiser.temporal.lambdaFetch)},
+    {"gradient", "gradientSigmaLuminance", "Sigma luminance (gradient)",
+     "Edge stop of the reconstruction, in standard deviations of the stratum's luminance.",
+     "", kSvgf, 0.1, 64.0, true, {}, AFTERGLOW_FIELD(denoiser.gradientEdges.sigmaLuminance)},
+    {"gradient", "gradientSigmaNormal", "Sigma normal (gradient)",
+     "Edge stop of the reconstruction: exponent of the cosine between normals.",
+     "", kSvgf, 1.0, 512.0, true, {}, AFTERGLOW_FIELD(denoiser.gradientEdges.sigmaNormal)},
+    {"gradient", "gradientSigmaDepth", "Sigma depth (gradient)",
+     "Edge stop of the reconstruction, in multiples of the depth change that the slope "
+     "predicts.",
+     "", kSvgf, 0.05, 16.0, true, {}, AFTERGLOW_FIELD(denoiser.gradientEdges.sigmaDepth)},
+    {"gradient", "deltaFloor", "Delta floor",
+     "Where the filtered Delta is below it, lambda is 0: there is no light to speak of.",
+     "radiance", "Schied 2018, released code", 0.0, 0.1, false, {},
+     AFTERGLOW_FIELD(denoiser.gradient.deltaFloor)},
+    {"gradient", "forceLambda", "Force lambda",
+     "This lambda everywhere, in [0, 1]; negative: as measured.",
+     "", "for experiments", -1.0, 1.0, false, {}, AFTERGLOW_FIELD(denoiser.gradient.forceLambda)},
+    {"gradient", "alwaysCarrySamples", "Always carry samples",
+     "Merges gradient samples also where the filter does not use them, so that filters can "
+     "be compared on the very same raw signal.",
+     "", "for experiments", 0.0, 1.0, false, kSwitchNames,
+     AFTERGLOW_FIELD(denoiser.alwaysCarrySamples)},
 
-    Field{"gradient",
-          "gradientIterations",
-          "Gradient iterations",
-          "A-trous iterations of the reconstruction of the temporal gradient.",
-          "",
-          kAsvgf,
-          0.0,
-          7.0,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientIterations; }},
-    Field{"gradient", "gradientKernel", "Gradient kernel", "Taps of each of these iterations.", "",
-          kAsvgf, 0.0, 1.0, false, kKernelNames,
-          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientKernel; }},
-    Field{"gradient", "lambdaFetch", "Lambda fetch",
-          "How lambda, known per 3x3 stratum, is fetched at a pixel: of its stratum, bilinear, or "
-          "the "
-          "largest of the 3x3 strata around.",
-          "", "own choice; largest as in the authors' code", 0.0, 2.0, false, kLambdaFetchNames,
-          [](Settings& s) -> Field::Ref { return &s.denoiser.temporal.lambdaFetch; }},
-    Field{"gradient",
-          "gradientSigmaLuminance",
-          "Sigma luminance (gradient)",
-          "Edge stop of the reconstruction, in standard deviations of the stratum's luminance.",
-          "",
-          kSvgf,
-          0.1,
-          64.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientEdges.sigmaLuminance; }},
-    Field{"gradient",
-          "gradientSigmaNormal",
-          "Sigma normal (gradient)",
-          "Edge stop of the reconstruction: exponent of the cosine between normals.",
-          "",
-          kSvgf,
-          1.0,
-          512.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientEdges.sigmaNormal; }},
-    Field{"gradient",
-          "gradientSigmaDepth",
-          "Sigma depth (gradient)",
-          "Edge stop of the reconstruction, in multiples of the depth change that the slope "
-          "predicts.",
-          "",
-          kSvgf,
-          0.05,
-          16.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.gradientEdges.sigmaDepth; }},
-    Field{"gradient",
-          "deltaFloor",
-          "Delta floor",
-          "Where the filtered Delta is below it, lambda is 0: there is no light to speak of.",
-          "radiance",
-          "Schied 2018, released code",
-          0.0,
-          0.1,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.gradient.deltaFloor; }},
-    Field{"gradient",
-          "forceLambda",
-          "Force lambda",
-          "This lambda everywhere, in [0, 1]; negative: as measured.",
-          "",
-          "for experiments",
-          -1.0,
-          1.0,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.gradient.forceLambda; }},
-    Field{"gradient", "alwaysCarrySamples", "Always carry samples",
-          "Merges gradient samples also where the filter does not use them, so that filters can be "
-          "compared on the very same raw signal.",
-          "", "for experiments", 0.0, 1.0, false, kSwitchNames,
-          [](Settings& s) -> Field::Ref { return &s.denoiser.alwaysCarrySamples; }},
+    {"spatial", "atrousIterations", "A-trous iterations",
+     "Iterations of the spatial filter; each doubles the distance between taps.",
+     "", kSvgf, 0.0, 7.0, false, {}, AFTERGLOW_FIELD(denoiser.atrousIterations)},
+    {"spatial", "kernel", "Kernel",
+     "Taps of each of these iterations.",
+     "", kSvgf, 0.0, 1.0, false, kKernelNames, AFTERGLOW_FIELD(denoiser.kernel)},
+    {"spatial", "feedbackIteration", "Feedback iteration",
+     "Whose result becomes the next frame's history; 0: the unfiltered blend.",
+     "", kSvgf, 0.0, 7.0, false, {}, AFTERGLOW_FIELD(denoiser.feedbackIteration)},
+    {"spatial", "sigmaLuminance", "Sigma luminance",
+     "Edge stop, in standard deviations of the local luminance.",
+     "", kSvgf, 0.1, 64.0, true, {}, AFTERGLOW_FIELD(denoiser.edges.sigmaLuminance)},
+    {"spatial", "sigmaNormal", "Sigma normal",
+     "Edge stop: exponent of the cosine between normals.",
+     "", kSvgf, 1.0, 512.0, true, {}, AFTERGLOW_FIELD(denoiser.edges.sigmaNormal)},
+    {"spatial", "sigmaDepth", "Sigma depth",
+     "Edge stop, in multiples of the depth change that the slope predicts.",
+     "", kSvgf, 0.05, 16.0, true, {}, AFTERGLOW_FIELD(denoiser.edges.sigmaDepth)},
 
-    Field{"spatial",
-          "atrousIterations",
-          "A-trous iterations",
-          "Iterations of the spatial filter; each doubles the distance between taps.",
-          "",
-          kSvgf,
-          0.0,
-          7.0,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.atrousIterations; }},
-    Field{"spatial", "kernel", "Kernel", "Taps of each of these iterations.", "", kSvgf, 0.0, 1.0,
-          false, kKernelNames, [](Settings& s) -> Field::Ref { return &s.denoiser.kernel; }},
-    Field{"spatial",
-          "feedbackIteration",
-          "Feedback iteration",
-          "Whose result becomes the next frame's history; 0: the unfiltered blend.",
-          "",
-          kSvgf,
-          0.0,
-          7.0,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.feedbackIteration; }},
-    Field{"spatial",
-          "sigmaLuminance",
-          "Sigma luminance",
-          "Edge stop, in standard deviations of the local luminance.",
-          "",
-          kSvgf,
-          0.1,
-          64.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.edges.sigmaLuminance; }},
-    Field{"spatial",
-          "sigmaNormal",
-          "Sigma normal",
-          "Edge stop: exponent of the cosine between normals.",
-          "",
-          kSvgf,
-          1.0,
-          512.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.edges.sigmaNormal; }},
-    Field{"spatial",
-          "sigmaDepth",
-          "Sigma depth",
-          "Edge stop, in multiples of the depth change that the slope predicts.",
-          "",
-          kSvgf,
-          0.05,
-          16.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.denoiser.edges.sigmaDepth; }},
+    {"lighting", "signal", "Signal",
+     "Which rays are traced and filtered, as one signal.",
+     "", kAsvgf, 0.0, 2.0, false, kSignalNames, AFTERGLOW_FIELD(lighting.signal)},
+    {"lighting", "aoRadius", "Occlusion radius",
+     "Length of the ambient occlusion rays.",
+     "of the scene's extent", "own choice", 0.001, 1.0, true, {},
+     AFTERGLOW_FIELD(lighting.aoRadius)},
+    {"lighting", "signalClamp", "Signal clamp",
+     "Upper bound of each channel of the raw signal; gradient and filter see the same bound.",
+     "radiance", "own choice", 1.0, 10000.0, true, {}, AFTERGLOW_FIELD(lighting.signalClamp)},
 
-    Field{"lighting", "signal", "Signal", "Which rays are traced and filtered, as one signal.", "",
-          kAsvgf, 0.0, 2.0, false, kSignalNames,
-          [](Settings& s) -> Field::Ref { return &s.lighting.signal; }},
-    Field{"lighting",
-          "aoRadius",
-          "Occlusion radius",
-          "Length of the ambient occlusion rays.",
-          "of the scene's extent",
-          "own choice",
-          0.001,
-          1.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.lighting.aoRadius; }},
-    Field{"lighting",
-          "signalClamp",
-          "Signal clamp",
-          "Upper bound of each channel of the raw signal; gradient and filter see the same bound.",
-          "radiance",
-          "own choice",
-          1.0,
-          10000.0,
-          true,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.lighting.signalClamp; }},
-
-    Field{"display",
-          "exposure",
-          "Exposure",
-          "Of the display image only; nothing is measured after it.",
-          "stops",
-          "own choice",
-          -8.0,
-          8.0,
-          false,
-          {},
-          [](Settings& s) -> Field::Ref { return &s.display.exposure; }},
-};
-
-std::string quotedList(std::span<const std::string_view> names) {
-    std::string list;
-    for (const std::string_view name : names)
-        list += (list.empty() ? "" : ", ") + std::string(name);
-    return list;
-}
-
-[[noreturn]] void throwUnknown(std::string_view kind, std::string_view name,
-                               std::span<const std::string_view> known) {
-    const std::string_view nearest = nearestName(name, known);
-    throw UsageError("no " + std::string(kind) + " named '" + std::string(name) + "'" +
-                     (nearest.empty() ? "" : "; did you mean '" + std::string(nearest) + "'?") +
-                     " (known: " + quotedList(known) + ")");
-}
+    {"display", "exposure", "Exposure",
+     "Of the display image only; nothing is measured after it.",
+     "stops", "own choice", -8.0, 8.0, false, {}, AFTERGLOW_FIELD(display.exposure)},
+});
+#undef AFTERGLOW_FIELD
+// clang-format on
 
 std::size_t indexOf(std::string_view kind, std::string_view name,
                     std::span<const std::string_view> known) {
     const auto found = std::ranges::find(known, name);
     if (found == known.end())
-        throwUnknown(kind, name, known);
+        throwUnknownName(kind, name, known);
     return std::size_t(found - known.begin());
 }
 
@@ -314,7 +142,7 @@ const Field& fieldByKey(std::string_view key) {
         std::vector<std::string_view> keys;
         for (const Field& field : kFields)
             keys.push_back(field.key);
-        throwUnknown("setting", key, keys);
+        throwUnknownName("setting", key, keys);
     }
     return *found;
 }
@@ -427,32 +255,6 @@ void applyJson(Settings& settings, const nlohmann::json& json) {
         }
     }
     settings = result;
-}
-
-std::string_view nearestName(std::string_view name, std::span<const std::string_view> known) {
-    // Levenshtein distance, one row at a time.
-    const auto distance = [](std::string_view a, std::string_view b) {
-        std::vector<std::size_t> row(b.size() + 1);
-        std::iota(row.begin(), row.end(), std::size_t(0));
-        for (std::size_t i = 0; i < a.size(); ++i) {
-            std::size_t diagonal = row[0];
-            row[0] = i + 1;
-            for (std::size_t j = 0; j < b.size(); ++j) {
-                const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
-                diagonal = row[j + 1];
-                row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
-            }
-        }
-        return row.back();
-    };
-    std::string_view nearest;
-    std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
-    for (const std::string_view candidate : known)
-        if (const std::size_t d = distance(name, candidate); d < least) {
-            least = d;
-            nearest = candidate;
-        }
-    return nearest;
 }
 
 } // namespace afterglow

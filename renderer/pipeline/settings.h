@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/base/names.h"
 #include "renderer/passes/frame_context.h"
 #include "shared/denoise_params.h"
 
@@ -89,8 +90,5 @@ void setField(Settings& settings, std::string_view key, std::string_view value);
 nlohmann::json toJson(const Settings& settings);
 /// Replaces the members that are named; UsageError names an unknown key or a value out of range.
 void applyJson(Settings& settings, const nlohmann::json& json);
-
-/// The known name nearest to a misspelt one by edit distance, or empty if none is near.
-std::string_view nearestName(std::string_view name, std::span<const std::string_view> known);
 
 } // namespace afterglow

@@ -38,7 +38,8 @@ void addSphere(Mesh& mesh, glm::vec3 center, float radius, int segments);
 /// A ring around a vertical axis: `ring` is the radius of its middle line, `tube` its thickness.
 void addTorus(Mesh& mesh, glm::vec3 center, float ring, float tube, int segments, int sides);
 
-/// A (p, q) torus knot around an axis along Z: it stands upright. `size` is the radius of its torus.
+/// A (p, q) torus knot around an axis along Z: it stands upright. `size` is the radius of its
+/// torus.
 void addTorusKnot(Mesh& mesh, glm::vec3 center, float size, float tube, int p, int q, int segments,
                   int sides);
 

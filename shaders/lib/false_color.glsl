@@ -18,8 +18,8 @@ vec3 fromPolar(float lightness, float chroma, float degrees) {
     return fromOklab(vec3(lightness, chroma * cos(h), chroma * sin(h)));
 }
 
-// t in [0, 1]: lightness rises evenly while the hue walks from violet over teal to yellow; the chroma
-// is as large as the gamut allows on that path.
+// t in [0, 1]: lightness rises evenly while the hue walks from violet over teal to yellow; the
+// chroma is as large as the gamut allows on that path.
 vec3 scalarColor(float t) {
     float t2 = t * t;
     float chroma = 0.105 + 0.035 * cos(6.2831853 * t) + 0.03 * t2 * t2;

@@ -1,7 +1,7 @@
 #version 450 core
 
-// Shows what any image of a frame holds. SOURCE says how the image is declared: Float4Texture and so
-// on; SOURCE_IS_INTEGER where it holds integers.
+// Shows what any image of a frame holds. SOURCE says how the image is declared: Float4Texture and
+// so on; SOURCE_IS_INTEGER where it holds integers.
 
 #include "lib/false_color.glsl"
 #include "lib/fetch.glsl"

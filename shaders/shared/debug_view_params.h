@@ -9,8 +9,9 @@ const int kMapLogarithm = 2; // the same, equal steps for equal factors; low > 0
 const int kMapSigned = 3;    // one channel: blue at -high, dark at 0, orange at high
 const int kMapVector = 4;    // three channels from `low` to `high` as red, green, blue
 const int kMapRepeat = 5;    // three channels, each starting anew after `high`: a grid in space
-const int kMapDirection = 6; // two channels: hue is the direction, brightness the length up to `high`
-const int kMapNumber = 7;    // one channel holds a whole number: a color each, 0 is dark
+const int kMapDirection =
+    6;                    // two channels: hue is the direction, brightness the length up to `high`
+const int kMapNumber = 7; // one channel holds a whole number: a color each, 0 is dark
 
 struct DebugViewParams {
     int map;
