@@ -1,0 +1,21 @@
+#pragma once
+
+#include "app/commands/headless.h"
+#include "app/commands/view.h"
+
+namespace afterglow {
+
+/// What the program can do with a window; given by main(), so that nothing below sees one.
+struct WindowFunctions {
+    int (*view)(const ViewOptions&) = nullptr;
+    HiddenContextFactory hiddenContext = nullptr;
+};
+
+/// The exit codes of the program.
+enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2, kBadInput = 3, kNoContext = 4 };
+
+/// The whole program: parses the words, runs the subcommand, and turns whatever goes wrong into one
+/// line on standard error and an exit code.
+int runCommandLine(int argc, const char* const* argv, const WindowFunctions& window);
+
+} // namespace afterglow

@@ -1,0 +1,280 @@
+#include "app/commands/command_words.h"
+
+#include "app/commands/arguments.h"
+#include "renderer/base/error.h"
+
+namespace afterglow {
+
+const std::string kExitCodes =
+    "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 no OpenGL 4.5 context to be had, "
+    "1 anything else.";
+
+namespace {
+
+constexpr int kMostFrames = 100'000;
+constexpr int kMostSamples = 1 << 20;
+
+// Several of a kind: the option is given again for each.
+CLI::Option* addOption(CLI::App& app, const std::string& name, Texts& texts, const char* type,
+                       const std::string& help) {
+    return app.add_option(name, texts, help)
+        ->type_name(type)
+        ->type_size(1)
+        ->expected(1, 1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+} // namespace
+
+CLI::Option* addOption(CLI::App& app, const std::string& name, Text& text, const char* type,
+                       const std::string& help) {
+    return app.add_option(name, text, help)->type_name(type);
+}
+
+void PictureWords::addSettings(CLI::App& app) {
+    addOption(app, "--signal", signal, "NAME", "shadows, ao or both [both]");
+    addOption(app, "--set", settings, "KEY=VALUE",
+              "One tunable of the renderer; again for more. See: afterglow list settings");
+}
+
+void PictureWords::addFilter(CLI::App& app) {
+    addOption(app, "--filter", filter, "NAME", "none, fixed, svgf or asvgf [asvgf]");
+}
+
+void PictureWords::addSeed(CLI::App& app) {
+    addOption(app, "--seed", seed, "S", "Of all random numbers, 0 to 4294967295 [0]");
+}
+
+void PictureWords::addContext(CLI::App& app) {
+    addOption(app, "--context", context, "NAME", "auto, osmesa, egl or glfw [auto]");
+}
+
+Settings PictureWords::toSettings() const {
+    Settings result;
+    if (filter)
+        result.filter = filterFromName(*filter);
+    if (signal)
+        result.lighting.signal = int(signalFromName(*signal));
+    for (const std::string& text : settings) {
+        const auto [key, value] = parseAssignment("--set", text);
+        setField(result, key, value);
+    }
+    return result;
+}
+
+std::vector<LightChange> PictureWords::toLightChanges() const {
+    std::vector<LightChange> changes;
+    for (const std::string& text : lights)
+        changes.push_back(parseLightChange("--light", text));
+    return changes;
+}
+
+std::uint32_t PictureWords::toSeed() const {
+    return seed ? std::uint32_t(parseWhole("--seed", *seed, 0, 0xffffffffll)) : 0;
+}
+
+ContextChoice PictureWords::toContext() const {
+    return context ? contextFromName(*context) : ContextChoice::Auto;
+}
+
+void RenderWords::addTo(CLI::App& app) {
+    addOption(app, "SCENE", scene, "", "A name (afterglow list scenes), or a .gltf or .glb file")
+        ->required();
+    addOption(app, "--out,-o", out, "DIR", "Folder of the results; made if it is missing")
+        ->required();
+    picture.addFilter(app);
+    picture.addSettings(app);
+    CLI::Option* frames =
+        addOption(app, "--frames,-n", picture.frames, "N", "Frames to render [32]");
+    addOption(app, "--size", picture.size, "WxH", "Of the picture in pixels [640x360]");
+    picture.addSeed(app);
+    picture.addContext(app);
+    addOption(app, "--light", picture.lights, "NAME=STATE[@FRAME]",
+              "Sets a light to on, off or a power (1 is the scene's own) from a frame on; again "
+              "for more");
+    addOption(app, "--camera", picture.camera, "NAME", "One of the scene's cameras [the first]");
+    CLI::Option* animateFlag =
+        app.add_flag("--animate", animate, "Plays the scene's animation; else nothing moves");
+    addOption(app, "--rate", rate, "HZ", "Frames a second of scene time [60]")->needs(animateFlag);
+    addOption(app, "--aov", aovs, "A,B,...",
+              "Also writes these images as floats. See: afterglow list aovs");
+    addOption(app, "--format", format, "NAME",
+              "Of those images: exr or pfm. png [the default] is exr: the display picture is "
+              "always PNG");
+    CLI::Option* everyOption =
+        addOption(app, "--every", every, "K", "Writes only the frames 0, K, 2K, ...");
+    CLI::Option* lastFlag = app.add_flag("--last", last, "Writes only the last frame");
+    lastFlag->excludes(everyOption);
+    addOption(app, "--spp", samples, "N",
+              "With --filter none: one converged image of N samples a pixel, instead of frames")
+        ->excludes(frames)
+        ->excludes(everyOption)
+        ->excludes(lastFlag)
+        ->excludes(animateFlag);
+    app.footer(
+        "Writes DIR/color_0000.png, ..., DIR/<aov>_0000.exr, ... and, last, DIR/run.json.\n\n"
+        "Examples:\n"
+        "  afterglow render cornell --out out/cornell\n"
+        "  afterglow render hall --frames 64 --light key=off@32 --aov lambda,history --out "
+        "out/hall\n"
+        "  afterglow render cornell --filter none --spp 1024 --out out/reference\n"
+        "  afterglow render my.glb --size 1280x720 --animate --camera Front --last --out "
+        "out/my\n\n" +
+        kExitCodes);
+}
+
+RenderOptions RenderWords::parse() const {
+    RenderOptions options;
+    options.settings = picture.toSettings();
+    options.scene = *scene;
+    options.camera = picture.camera.value_or("");
+    if (picture.size)
+        options.size = parseSize("--size", *picture.size);
+    if (picture.frames)
+        options.frames = int(parseWhole("--frames", *picture.frames, 1, kMostFrames));
+    options.seed = picture.toSeed();
+    options.context = picture.toContext();
+    options.lights = picture.toLightChanges();
+    if (aovs)
+        options.aovs = parseList("--aov", *aovs);
+    if (format) {
+        if (*format != "png" && *format != "exr" && *format != "pfm")
+            throw UsageError("--format: " + unknownName("format", *format, {"png", "exr", "pfm"}));
+        options.format = *format;
+    }
+    if (samples)
+        options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
+    if (every)
+        options.every = int(parseWhole("--every", *every, 1, kMostFrames));
+    if (rate)
+        options.rate = parseNumber("--rate", *rate, 1e-3, 1e6);
+    options.animate = animate;
+    options.lastOnly = last;
+    options.out = *out;
+    return options;
+}
+
+void ViewWords::addTo(CLI::App& app) {
+    addOption(app, "SCENE", scene, "",
+              "A name (afterglow list scenes), or a .gltf or .glb file [hall]");
+    picture.addFilter(app);
+    picture.addSettings(app);
+    addOption(app, "--size", picture.size, "WxH", "Of the window [1600x900]");
+    picture.addSeed(app);
+    addOption(app, "--camera", picture.camera, "NAME", "One of the scene's cameras [the first]");
+    app.add_flag("--still", still, "The scene's animation stands still at first");
+    addOption(app, "--frames,-n", picture.frames, "N", "Closes by itself after N frames");
+    addOption(app, "--screenshot", screenshot, "FILE",
+              "Writes the window as PNG after the last frame");
+    app.add_flag("--debug", debug, "Lets the driver check every call");
+    app.footer("F1 in the window shows all keys.\n\n"
+               "Examples:\n"
+               "  afterglow view\n"
+               "  afterglow view cornell --filter svgf\n"
+               "  afterglow view my.glb --size 1280x720\n\n" +
+               kExitCodes);
+}
+
+ViewOptions ViewWords::parse() const {
+    ViewOptions options;
+    options.settings = picture.toSettings();
+    if (scene)
+        options.scene = *scene;
+    options.camera = picture.camera.value_or("");
+    if (picture.size)
+        options.size = parseSize("--size", *picture.size);
+    options.seed = picture.toSeed();
+    if (picture.frames)
+        options.frames = int(parseWhole("--frames", *picture.frames, 1, 1'000'000'000));
+    options.animate = !still;
+    if (screenshot && options.frames == 0)
+        throw UsageError("--screenshot is written after the last frame; it needs --frames");
+    options.screenshot = screenshot;
+    options.debugContext = debug;
+    return options;
+}
+
+void ExperimentWords::addTo(CLI::App& app) {
+    addOption(app, "EXPERIMENT", experiment, "",
+              "A name (afterglow list experiments), or a .json file")
+        ->required();
+    addOption(app, "--out,-o", out, "DIR", "Folder of the results; made if it is missing")
+        ->required();
+    addOption(app, "--size", size, "WxH", "Instead of the experiment's own");
+    addOption(app, "--frames,-n", frames, "N",
+              "Instead of the experiment's own; later events do not happen");
+    addOption(app, "--spp", samples, "N", "Samples a pixel of each reference, likewise");
+    addOption(app, "--context", context, "NAME", "auto, osmesa, egl or glfw [auto]");
+    app.footer(
+        "Runs every variant over the same frames with the same seed, and compares each frame "
+        "with\n"
+        "a converged picture of the same moment. Writes DIR/contact_sheet.png, "
+        "DIR/summary.json,\n"
+        "DIR/metrics.csv, DIR/experiment.json and DIR/<variant>/frame_0000.png, ...\n\n"
+        "t50, t90, t99: frames from the event (its own is 0) until the response stays above "
+        "that\n"
+        "part of the change. ghost frames: the area above the response curve. rmse, flicker, "
+        "noise:\n"
+        "of linear luminance, over the pixels that show a surface.\n\n"
+        "Examples:\n"
+        "  afterglow experiment light-off --out out/light-off\n"
+        "  afterglow experiment my.json --size 160x160 --frames 64 --spp 256 --out out/my\n\n" +
+        kExitCodes);
+}
+
+ExperimentOptions ExperimentWords::parse() const {
+    ExperimentOptions options;
+    options.experiment = *experiment;
+    if (size)
+        options.size = parseSize("--size", *size);
+    if (frames)
+        options.frames = int(parseWhole("--frames", *frames, 1, kMostFrames));
+    if (samples)
+        options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
+    if (context)
+        options.context = contextFromName(*context);
+    options.out = *out;
+    return options;
+}
+
+void BenchWords::addTo(CLI::App& app) {
+    addOption(app, "SCENE", scene, "",
+              "A name (afterglow list scenes), or a .gltf or .glb file [hall]");
+    addOption(app, "--filter", filters, "A,B,...", "Which filters [all]");
+    addOption(app, "--size", sizes, "WxH,...", "At which sizes [640x360]");
+    picture.addSettings(app);
+    addOption(app, "--frames,-n", picture.frames, "N",
+              "Of each filter at each size; the first three are not counted [16]");
+    picture.addSeed(app);
+    picture.addContext(app);
+    addOption(app, "--out,-o", out, "DIR", "Also writes DIR/bench.json");
+    app.footer("Prints medians of every pass and of the frame, and rays a second.\n\n"
+               "Examples:\n"
+               "  afterglow bench\n"
+               "  afterglow bench cornell --filter svgf,asvgf --size 320x180,640x360 --out "
+               "out/bench\n\n" +
+               kExitCodes);
+}
+
+BenchOptions BenchWords::parse() const {
+    BenchOptions options;
+    options.settings = picture.toSettings();
+    if (scene)
+        options.scene = *scene;
+    if (filters)
+        for (const std::string& name : parseList("--filter", *filters))
+            options.filters.push_back(filterFromName(name));
+    if (sizes) {
+        options.sizes.clear();
+        for (const std::string& size : parseList("--size", *sizes))
+            options.sizes.push_back(parseSize("--size", size));
+    }
+    if (picture.frames)
+        options.frames = int(parseWhole("--frames", *picture.frames, 4, kMostFrames));
+    options.seed = picture.toSeed();
+    options.context = picture.toContext();
+    options.out = out;
+    return options;
+}
+
+} // namespace afterglow

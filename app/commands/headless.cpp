@@ -1,0 +1,64 @@
+#include "app/commands/headless.h"
+
+#include "app/commands/arguments.h"
+#include "renderer/base/error.h"
+
+#include <algorithm>
+#include <array>
+
+namespace afterglow {
+
+namespace {
+
+constexpr std::array kContexts{
+    ContextInfo{ContextChoice::Auto, "auto", "EGL; where that cannot be had, OSMesa"},
+    ContextInfo{ContextChoice::OsMesa, "osmesa",
+                "Mesa's software renderer, without a display or a driver"},
+    ContextInfo{ContextChoice::Egl, "egl",
+                "the GPU's driver without a display, else Mesa without a surface"},
+    ContextInfo{ContextChoice::Glfw, "glfw", "a window that is not shown; needs a display"},
+};
+
+std::unique_ptr<GlContext> makeContext(ContextChoice choice, HiddenContextFactory hiddenContext) {
+    switch (choice) {
+    case ContextChoice::Auto: return createHeadlessContext(Backend::Auto);
+    case ContextChoice::OsMesa: return createHeadlessContext(Backend::OsMesa);
+    case ContextChoice::Egl: return createHeadlessContext(Backend::Egl);
+    case ContextChoice::Glfw: break;
+    }
+    if (!hiddenContext)
+        throw ContextError("this build has no window, so no context of kind glfw");
+    return hiddenContext();
+}
+
+} // namespace
+
+std::span<const ContextInfo> contexts() {
+    return kContexts;
+}
+
+ContextChoice contextFromName(std::string_view name) {
+    std::vector<std::string_view> known;
+    for (const ContextInfo& info : kContexts) {
+        if (info.name == name)
+            return info.choice;
+        known.push_back(info.name);
+    }
+    throw UsageError(unknownName("context", name, known));
+}
+
+Headless::Headless(ContextChoice choice, HiddenContextFactory hiddenContext)
+    : context(makeContext(choice, hiddenContext)), gl(glInfo(*context)),
+      shaders(makeShaderLibrary(gl)), renderer(shaders, gl) {}
+
+void Headless::resize(glm::ivec2 size) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (std::max(size.x, size.y) > largest)
+        throw UsageError("--size " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                         ": the largest image of this driver is " + std::to_string(largest) +
+                         " pixels along a side");
+    renderer.resize(size);
+}
+
+} // namespace afterglow

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "renderer/gl/context.h"
+#include "renderer/pipeline/renderer.h"
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace afterglow {
+
+/// Where a command that needs no window gets its OpenGL from.
+enum class ContextChoice { Auto, OsMesa, Egl, Glfw };
+
+struct ContextInfo {
+    ContextChoice choice;
+    std::string_view name;
+    std::string_view meaning;
+};
+std::span<const ContextInfo> contexts();
+
+ContextChoice contextFromName(std::string_view name); ///< UsageError names the nearest known
+
+/// Makes the context of a window that is not shown. Given from outside, so that nothing here sees
+/// the window.
+using HiddenContextFactory = std::unique_ptr<GlContext> (*)();
+
+/// A renderer with all it stands on, in the order in which it must live and die.
+struct Headless {
+    Headless(ContextChoice choice, HiddenContextFactory hiddenContext);
+
+    /// Resizes; UsageError if this driver's textures cannot be that large.
+    void resize(glm::ivec2 size);
+
+    std::unique_ptr<GlContext> context;
+    GlInfo gl;
+    ShaderLibrary shaders;
+    Renderer renderer;
+};
+
+} // namespace afterglow

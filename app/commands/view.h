@@ -1,0 +1,30 @@
+#pragma once
+
+#include "renderer/pipeline/settings.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+namespace afterglow {
+
+/// What `afterglow view` was asked for.
+struct ViewOptions {
+    std::string scene = "hall"; ///< a procedural name or a path
+    std::string camera;         ///< name of a scene camera; empty: the first
+    glm::ivec2 size{1600, 900}; ///< of the window, in screen coordinates
+    Settings settings;          ///< filter and every --set already applied
+    std::uint32_t seed = 0;
+    int frames = 0;      ///< closes after so many rendered frames; 0: stays until closed
+    bool animate = true; ///< the scene's animation starts running
+    std::optional<std::string> screenshot; ///< PNG of the window, written after the last frame
+    bool debugContext = false;             ///< the driver checks every call and reports to the log
+};
+
+/// Opens the window and returns the exit code when it has been closed. Implemented beside the
+/// window: app_core knows only this declaration.
+int runView(const ViewOptions& options);
+
+} // namespace afterglow

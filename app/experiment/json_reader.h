@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace afterglow {
+
+/// One value of a JSON document that knows where it stands. Every mismatch is an InputError:
+/// "file: path: expected this, found that". It must not outlive its document.
+class JsonReader {
+public:
+    /// Throws "expected <wanted>, found <this value>".
+    [[noreturn]] void fail(std::string_view wanted) const;
+
+    /// Each key of this object must be one of these.
+    void expectKeys(std::initializer_list<std::string_view> known) const;
+
+    /// A member of this object that must be there, and one that need not be.
+    JsonReader at(std::string_view key) const;
+    std::optional<JsonReader> find(std::string_view key) const;
+
+    /// The items of this list; `wanted` describes it.
+    std::vector<JsonReader> list(std::string_view wanted, std::size_t least,
+                                 std::size_t most) const;
+
+    bool boolean() const;
+    double number(double least, double most) const; ///< the bounds belong to the range
+    std::int64_t wholeNumber(std::int64_t least, std::int64_t most) const; ///< likewise
+    std::string text() const;
+    std::size_t
+    choice(std::span<const std::string_view> names) const; ///< its index among the names
+
+private:
+    friend class JsonDocument;
+    JsonReader(const nlohmann::json& value, std::string_view source, std::string path)
+        : value_(&value), source_(source), path_(std::move(path)) {}
+
+    [[noreturn]] void refuse(const std::string& cause) const;
+
+    const nlohmann::json* value_;
+    std::string_view source_;
+    std::string path_; ///< "timeline[0].frame"; empty for the whole document
+};
+
+/// A parsed file. Text that is not JSON, or has a key twice, is an InputError with the line.
+class JsonDocument {
+public:
+    JsonDocument(std::string_view text, std::string_view source);
+    ~JsonDocument();
+
+    JsonReader root() const;
+
+private:
+    std::unique_ptr<nlohmann::json> value_;
+    std::string source_;
+};
+
+} // namespace afterglow

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace afterglow {
+
+/// A line on standard error that tells how far the work is and how long it will still take. It
+/// shows itself only on a terminal, and is gone when the object is.
+class Progress {
+public:
+    explicit Progress(double total); ///< work in any unit
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void advance(double work, std::string_view doing);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double total_, done_ = 0.0;
+    bool visible_;
+    Clock::time_point start_ = Clock::now(), drawn_{};
+};
+
+/// "0:07", "12:30", "1:02:03".
+std::string clockText(double seconds);
+
+} // namespace afterglow

@@ -1,0 +1,8 @@
+#include "app/commands/command_line.h"
+#include "app/window/window.h"
+
+int main(int argc, char** argv) {
+    return afterglow::runCommandLine(
+        argc, argv,
+        {.view = afterglow::runView, .hiddenContext = afterglow::createHiddenWindowContext});
+}

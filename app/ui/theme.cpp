@@ -1,0 +1,101 @@
+#include "app/ui/theme.h"
+
+#include <cmath>
+#include <filesystem>
+
+namespace afterglow {
+namespace {
+
+struct FontFiles {
+    const char* text;
+    const char* strong;
+};
+
+constexpr FontFiles kFontFiles[] = {
+    {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+     "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Medium.ttf"},
+    {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+     "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"},
+    {"/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+     "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf"},
+};
+
+// Latin, Greek for the formulas, and the dashes and quotes of running text.
+constexpr ImWchar kGlyphs[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0};
+
+ImFont* load(const char* file, float pixels) {
+    ImFontConfig config;
+    config.OversampleH = 3;
+    config.OversampleV = 2;
+    return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, std::round(pixels), &config, kGlyphs);
+}
+
+} // namespace
+
+Fonts loadFonts(float scale) {
+    for (const FontFiles& files : kFontFiles)
+        if (std::filesystem::is_regular_file(files.text) &&
+            std::filesystem::is_regular_file(files.strong))
+            return {.text = load(files.text, 15.0f * scale),
+                    .strong = load(files.strong, 15.0f * scale),
+                    .large = load(files.strong, 22.0f * scale),
+                    .small = load(files.text, 13.0f * scale)};
+    ImFontConfig config;
+    config.SizePixels = std::round(13.0f * scale);
+    ImFont* const own = ImGui::GetIO().Fonts->AddFontDefault(&config);
+    return {own, own, own, own};
+}
+
+void applyTheme(float scale) {
+    ImGuiStyle style;
+    style.WindowPadding = {16, 14};
+    style.WindowBorderSize = 0.0f;
+    style.WindowRounding = 0.0f;
+    style.ChildRounding = 6.0f;
+    style.FramePadding = {9, 4};
+    style.FrameRounding = 5.0f;
+    style.GrabRounding = 4.0f;
+    style.GrabMinSize = 10.0f;
+    style.PopupRounding = 6.0f;
+    style.PopupBorderSize = 1.0f;
+    style.ItemSpacing = {8, 5};
+    style.ItemInnerSpacing = {7, 5};
+    style.IndentSpacing = 12.0f;
+    style.ScrollbarSize = 10.0f;
+    style.ScrollbarRounding = 5.0f;
+    style.DisabledAlpha = 0.4f;
+    style.ScaleAllSizes(scale);
+
+    using namespace color;
+    ImVec4* const c = style.Colors;
+    const ImVec4 none{0, 0, 0, 0};
+    c[ImGuiCol_Text] = kText;
+    c[ImGuiCol_TextDisabled] = kDim;
+    c[ImGuiCol_WindowBg] = kPanel;
+    c[ImGuiCol_ChildBg] = none;
+    c[ImGuiCol_PopupBg] = kRaised;
+    c[ImGuiCol_Border] = kLine;
+    c[ImGuiCol_FrameBg] = kFrame;
+    c[ImGuiCol_FrameBgHovered] = kFrameHovered;
+    c[ImGuiCol_FrameBgActive] = kFrameActive;
+    c[ImGuiCol_SliderGrab] = kAccentDeep;
+    c[ImGuiCol_SliderGrabActive] = kAccent;
+    c[ImGuiCol_CheckMark] = kAccent;
+    c[ImGuiCol_Button] = kFrame;
+    c[ImGuiCol_ButtonHovered] = kFrameHovered;
+    c[ImGuiCol_ButtonActive] = kFrameActive;
+    c[ImGuiCol_Header] = rgb(0xe9a15b, 0.16f);
+    c[ImGuiCol_HeaderHovered] = rgb(0xe9a15b, 0.10f);
+    c[ImGuiCol_HeaderActive] = rgb(0xe9a15b, 0.22f);
+    c[ImGuiCol_Separator] = kLine;
+    c[ImGuiCol_ScrollbarBg] = none;
+    c[ImGuiCol_ScrollbarGrab] = kFrame;
+    c[ImGuiCol_ScrollbarGrabHovered] = kFrameHovered;
+    c[ImGuiCol_ScrollbarGrabActive] = kFrameActive;
+    c[ImGuiCol_TextSelectedBg] = rgb(0xe9a15b, 0.35f);
+    c[ImGuiCol_TableBorderLight] = kLine;
+    c[ImGuiCol_PlotHistogram] = kAccent;
+    ImGui::GetStyle() = style;
+}
+
+} // namespace afterglow

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <imgui.h>
+
+namespace afterglow {
+
+/// Colors of the interface, sRGB-encoded.
+namespace color {
+inline ImVec4 rgb(int hex, float alpha = 1.0f) {
+    return {float((hex >> 16) & 255) / 255.0f, float((hex >> 8) & 255) / 255.0f,
+            float(hex & 255) / 255.0f, alpha};
+}
+inline const ImVec4 kPanel = rgb(0x14161a);
+inline const ImVec4 kRaised = rgb(0x1b1e24);
+inline const ImVec4 kFrame = rgb(0x23272f);
+inline const ImVec4 kFrameHovered = rgb(0x2c313b);
+inline const ImVec4 kFrameActive = rgb(0x353b47);
+inline const ImVec4 kLine = rgb(0x262a32);
+inline const ImVec4 kText = rgb(0xd8dbe2);
+inline const ImVec4 kDim = rgb(0x8d94a3);
+inline const ImVec4 kFaint = rgb(0x5d6472);
+inline const ImVec4 kAccent = rgb(0xe9a15b); // the color of the sky an hour after sunset
+inline const ImVec4 kAccentDeep = rgb(0x9c6531);
+inline const ImVec4 kFill = rgb(0x56412b); ///< of a slider up to its value
+inline const ImVec4 kOnAccent = rgb(0x1a120a);
+inline const ImVec4 kError = rgb(0xe06c6c);
+} // namespace color
+
+inline ImU32 packed(ImVec4 c) {
+    return ImGui::ColorConvertFloat4ToU32(c);
+}
+
+/// Fonts that the atlas of the current Dear ImGui context owns.
+struct Fonts {
+    ImFont* text = nullptr;
+    ImFont* strong = nullptr; ///< headings
+    ImFont* large = nullptr;  ///< title, main numbers
+    ImFont* small = nullptr;
+};
+
+/// Loads the first of a few well-known fonts that the system has (third_party/install.sh installs
+/// one), or else Dear ImGui's own. `scale`: pixels per unit of the design.
+Fonts loadFonts(float scale);
+
+/// Sets the colors and the sizes of the current Dear ImGui context.
+void applyTheme(float scale);
+
+} // namespace afterglow

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "app/workbench/layout.h"
+#include "renderer/gl/object.h"
+#include "renderer/gl/texture.h"
+
+namespace afterglow {
+
+/// Brings a picture to the window and back: the only part that touches the default framebuffer
+/// beside the panels.
+class Presenter {
+public:
+    Presenter();
+
+    /// Fills the back buffer of that size with a dark ground and scales the picture (RGBA8,
+    /// sRGB-encoded, row 0 on top) into `where`.
+    void draw(const GpuTexture* picture, const Rect& where, glm::ivec2 framebuffer, bool smooth);
+
+    /// What is in the back buffer now; opaque, row 0 on top.
+    Image<glm::u8vec4> readWindow(glm::ivec2 framebuffer) const;
+
+private:
+    GlObject<FramebufferKind> source_;
+};
+
+} // namespace afterglow

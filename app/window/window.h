@@ -1,0 +1,78 @@
+#pragma once
+
+#include "app/workbench/keymap.h"
+#include "renderer/gl/context.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+struct GLFWwindow;
+
+namespace afterglow {
+
+/// What happened since the last look at the window.
+struct WindowInput {
+    std::vector<KeyStroke> strokes; ///< keys that went down, with repeats left out
+    glm::vec2 cursorMoved{0.0f};    ///< screen coordinates, y down
+    float wheel = 0.0f;             ///< notches, away from the hand is positive
+    bool rightPressed = false, rightReleased = false;
+};
+
+/// An OpenGL context that can be seen. One at a time, on the main thread.
+class Window final : public GlContext {
+public:
+    struct Options {
+        std::string title = "Afterglow";
+        glm::ivec2 size{1600, 900}; ///< screen coordinates
+        bool visible = true;
+        bool debugContext = false;
+    };
+    /// Throws ContextError "GLFW: ..." without a display or without OpenGL 4.5.
+    explicit Window(const Options& options);
+    ~Window() override;
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    std::string_view backend() const override { return "GLFW"; }
+
+    WindowInput poll();               ///< returns at once
+    WindowInput wait(double seconds); ///< returns when something happens, or after that time
+    void swap();                      ///< shows what was drawn
+
+    bool isDown(Key key) const;
+    bool closeWanted() const;
+    bool isMinimized() const;
+    glm::ivec2 framebufferSize() const; ///< pixels; 0 while minimized on some systems
+    float contentScale() const;         ///< of the monitor: 2 where letters need twice the pixels
+    void setTitle(const std::string& title);
+    /// Hides the cursor and lets it move without end.
+    void captureCursor(bool captured);
+
+    GLFWwindow* handle() const { return window_.get(); } ///< for Dear ImGui's back end
+
+private:
+    struct Library { // glfwInit() and glfwTerminate()
+        Library();
+        ~Library();
+        Library(const Library&) = delete;
+        Library& operator=(const Library&) = delete;
+    };
+    struct Destroy {
+        void operator()(GLFWwindow* window) const;
+    };
+
+    WindowInput takeInput();
+
+    Library library_;
+    std::unique_ptr<GLFWwindow, Destroy> window_;
+    WindowInput input_;
+    glm::vec2 cursor_{0.0f};
+};
+
+/// A window that is never shown, as a context for work without one.
+std::unique_ptr<GlContext> createHiddenWindowContext();
+
+} // namespace afterglow

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "renderer/scene/camera.h"
+
+namespace afterglow {
+
+/// What the hands ask of a camera in one frame.
+struct FlyInput {
+    glm::vec3 move{0.0f}; ///< right, up, forward; each in [-1, 1]
+    glm::vec2 look{0.0f}; ///< radians to the right and up
+    bool fast = false;
+};
+
+constexpr float kFastFactor = 4.0f;
+
+/// Moves along the camera's own axes (up is the world's) and turns it. It never passes the zenith
+/// or the nadir. Diagonal moves are as fast as straight ones.
+void fly(Camera& camera, const FlyInput& input, float metresPerSecond, double seconds);
+
+/// A speed for a scene of that extent in metres, and what a notch of the wheel makes of it.
+float defaultSpeed(float extent);
+float changedSpeed(float metresPerSecond, float notches, float extent);
+
+} // namespace afterglow

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afterglow {
+
+/// Milliseconds of the passes and of whole frames, smoothed so that they can be read. The first
+/// time of a pass may include compiling its shader and is soon forgotten.
+class PassTimings {
+public:
+    struct Row {
+        std::string name;
+        double milliseconds = 0.0; ///< exponential average over about ten frames
+    };
+    static constexpr std::size_t kFrames = 120;
+
+    /// One frame. Passes that are not in it disappear; new ones come where they stand in it.
+    void addPasses(std::span<const Row> passes);
+    void addFrame(double milliseconds);
+
+    const std::vector<Row>& passes() const { return passes_; }
+    double passTotal() const;
+    double frame() const; ///< median of the last fifteen; 0 before the first
+    const std::vector<float>& frames() const { return ring_; } ///< the last kFrames, oldest first
+
+private:
+    std::vector<Row> passes_;
+    std::vector<int> seen_; ///< frames in a row that each of the passes was in
+    std::vector<float> ring_;
+};
+
+} // namespace afterglow
