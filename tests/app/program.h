@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afterglow::test {
+
+/// What a run of the program left behind.
+struct Run {
+    int exitCode = -1; ///< 128 + signal if it was killed
+    std::string out, err;
+};
+
+/// Runs the program of the environment variable AFTERGLOW_BIN with these words and waits for it.
+Run afterglow(const std::vector<std::string>& words,
+              const std::map<std::string, std::string>& environment = {});
+
+/// A folder that is gone when the object is.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::string operator/(std::string_view name) const { return (path_ / name).string(); }
+    /// Makes a file and returns its path.
+    std::string write(std::string_view name, std::string_view bytes) const;
+
+private:
+    std::filesystem::path path_;
+};
+
+std::string bytesOf(const std::filesystem::path& file);
+
+/// Names of the files below a folder, relative to it, sorted.
+std::vector<std::string> filesIn(const std::filesystem::path& folder);
+
+/// Exactly one line, which begins with the name of the program.
+bool isOneErrorLine(std::string_view text);
+
+} // namespace afterglow::test

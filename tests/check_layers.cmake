@@ -1,0 +1,67 @@
+# Fails when an include under renderer/ or app/ points to a layer that its own may not know.
+# Usage: cmake -DROOT=<source dir> -P check_layers.cmake
+
+cmake_minimum_required(VERSION 3.22)
+
+set(base_may "base")
+set(image_may "base;image")
+set(scene_may "base;image;scene")
+set(bvh_may "base;image;scene;bvh")
+set(gl_may "base;image;gl")
+set(resources_may "base;image;scene;bvh;gl;resources")
+set(passes_may "base;image;scene;bvh;gl;resources;passes")
+set(pipeline_may "base;image;scene;bvh;gl;resources;passes;pipeline")
+
+# Foreign libraries and the files that may see them.
+set(foreign
+    "tiny_gltf.h|renderer/scene/"
+    "stb/|renderer/image/|app/experiment/"
+    "stb_|renderer/image/|app/experiment/"
+    "tinyexr.h|renderer/image/"
+    "GL/osmesa.h|renderer/gl/context_osmesa.cpp"
+    "EGL/|renderer/gl/context_egl.cpp"
+    "GLFW/|app/window/|app/ui/"
+    "imgui|app/window/|app/ui/"
+    "CLI/|app/")
+
+set(faults "")
+set(seen 0)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/renderer/*.h ${ROOT}/renderer/*.cpp ${ROOT}/app/*.h ${ROOT}/app/*.cpp)
+foreach(file IN LISTS files)
+    file(STRINGS ${ROOT}/${file} includes REGEX "^#include")
+    foreach(line IN LISTS includes)
+        math(EXPR seen "${seen} + 1")
+        if(file MATCHES "^renderer/([a-z]+)/")
+            set(layer ${CMAKE_MATCH_1})
+            if(line MATCHES "\"renderer/([a-z]+)/" AND NOT CMAKE_MATCH_1 IN_LIST ${layer}_may)
+                string(APPEND faults "${file}: ${layer} may not know ${CMAKE_MATCH_1}: ${line}\n")
+            endif()
+            if(line MATCHES "\"(app|tests)/")
+                string(APPEND faults "${file}: the renderer may not know ${CMAKE_MATCH_1}: ${line}\n")
+            endif()
+        endif()
+        foreach(rule IN LISTS foreign)
+            string(REPLACE "|" ";" parts "${rule}")
+            list(POP_FRONT parts header)
+            if(line MATCHES "[<\"/]${header}")
+                set(allowed FALSE)
+                foreach(place IN LISTS parts)
+                    if(file MATCHES "^${place}")
+                        set(allowed TRUE)
+                    endif()
+                endforeach()
+                if(NOT allowed)
+                    string(APPEND faults "${file}: only ${parts} may see ${header}: ${line}\n")
+                endif()
+            endif()
+        endforeach()
+    endforeach()
+endforeach()
+
+if(seen LESS 100)
+    message(FATAL_ERROR "only ${seen} includes seen below ${ROOT}: is it the source folder?")
+endif()
+if(faults)
+    message(FATAL_ERROR "\n${faults}")
+endif()
+message(STATUS "${seen} includes, all pointing down")

@@ -1,0 +1,87 @@
+// Every shader, in both ways of fetching textures, through this driver and through Khronos' own
+// compiler: drivers accept different mistakes.
+
+#include "tests/support/gl_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace afterglow;
+
+namespace {
+
+struct Variant {
+    std::string name;
+    Defines defines;
+};
+
+std::vector<Variant> allVariants() {
+    std::vector<Variant> variants;
+    const std::filesystem::path root = std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+        const std::string extension = entry.path().extension();
+        if (extension != ".comp" && extension != ".vert" && extension != ".frag")
+            continue;
+        const std::string name = std::filesystem::relative(entry.path(), root).generic_string();
+        std::vector<Defines> defines{{}};
+        if (name.find("atrous") != std::string::npos)
+            defines = {{{"KERNEL_RADIUS", "1"}}, {{"KERNEL_RADIUS", "2"}}};
+        if (name == "lighting/lighting.comp")
+            defines = {{{"SHADOWS", "1"}},
+                       {{"AMBIENT_OCCLUSION", "1"}},
+                       {{"SHADOWS", "1"}, {"AMBIENT_OCCLUSION", "1"}}};
+        if (name == "post/debug_view.comp")
+            defines = {{{"SOURCE", "Float4Texture"}},
+                       {{"SOURCE", "Uint4Texture"}, {"SOURCE_IS_INTEGER", "1"}}};
+        for (Defines& d : defines) {
+            variants.push_back({name, d});
+            d.emplace_back("FETCH_BY_IMAGE", "1");
+            variants.push_back({name, d});
+        }
+    }
+    return variants;
+}
+
+} // namespace
+
+TEST_CASE("every shader is valid GLSL 4.50 to the reference compiler") {
+    const ShaderSource source =
+        ShaderSource::fromDirectory(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders");
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() /
+        ("afterglow-glsl-" + std::to_string(std::random_device()()));
+    std::filesystem::create_directories(folder);
+    REQUIRE_MESSAGE(std::system("glslangValidator --version > /dev/null 2>&1") == 0,
+                    "glslangValidator is missing; third_party/install.sh --tests installs it");
+    int checked = 0;
+    for (const Variant& variant : allVariants()) {
+        CAPTURE(variant.name);
+        const std::filesystem::path file =
+            folder / ("shader" + std::filesystem::path(variant.name).extension().string());
+        std::ofstream(file) << source.expand(variant.name, variant.defines).text;
+        CHECK(std::system(("glslangValidator " + file.string() + " > " + (folder / "log").string() +
+                           " 2>&1 || { cat " + (folder / "log").string() + "; false; }")
+                              .c_str()) == 0);
+        ++checked;
+    }
+    std::filesystem::remove_all(folder);
+    CHECK(checked > 30);
+}
+
+TEST_CASE("every compute shader compiles in both ways of fetching textures") {
+    const GlCheck noGlMessages;
+    testContext();
+    ShaderLibrary library(
+        ShaderSource::fromDirectory(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders"));
+    for (const Variant& variant : allVariants())
+        if (variant.name.ends_with(".comp")) {
+            CAPTURE(variant.name);
+            CHECK_NOTHROW(library.compute(variant.name, variant.defines));
+        }
+}

@@ -1,0 +1,393 @@
+#include "renderer/base/error.h"
+#include "renderer/gl/framebuffer.h"
+#include "shared/bindings.h"
+#include "tests/support/compare.h"
+#include "tests/support/gl_fixture.h"
+#include "tests/support/glsl_probe.h"
+
+#include <array>
+#include <random>
+
+#include <doctest/doctest.h>
+
+using namespace afterglow;
+
+namespace {
+
+constexpr glm::ivec2 kOdd{61, 37};
+
+ComputeProgram compile(std::string_view name, const std::string& body,
+                       const Defines& defines = {}) {
+    const std::string text = "#version 450 core\n"
+                             "#include \"lib/fetch.glsl\"\n"
+                             "layout(local_size_x = 8, local_size_y = 8) in;\n" +
+                             body;
+    return ComputeProgram(name, testShaders().source().expandText(name, text, defines));
+}
+
+/// Scales a picture and adds to it.
+const std::string kScale = R"(
+layout(std140, binding = 1) uniform Params { vec4 factor; vec4 summand; };
+Float4Texture(radiance);
+Float2Texture(guides);
+uniform writeonly image2D scaled;
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, sizeOf(radiance))))
+        return;
+    imageStore(scaled, p, fetch(radiance, p) * factor + summand + fetch(guides, p).xyyy);
+}
+)";
+struct ScaleParams {
+    glm::vec4 factor, summand;
+};
+
+Image<glm::vec4> randomImage(glm::ivec2 size, unsigned seed) {
+    std::mt19937 random(seed);
+    Image<glm::vec4> image(size);
+    for (glm::vec4& pixel : image.pixels())
+        for (int i = 0; i < 4; ++i)
+            pixel[i] = float(random() % 1025) / 1024.0f;
+    return image;
+}
+
+std::string logicErrorOf(auto act) {
+    try {
+        act();
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
+    return "no logic_error";
+}
+
+std::string errorOf(auto act) {
+    try {
+        act();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no Error";
+}
+
+const std::array<Defines, 2> kFetchPaths{Defines{}, Defines{{"FETCH_BY_IMAGE", "1"}}};
+
+} // namespace
+
+TEST_CASE("a program reads, writes and takes parameters at an odd size, by image and by sampler") {
+    testContext();
+    const GlCheck check;
+    const Image<glm::vec4> input = randomImage(kOdd, 1);
+    const ScaleParams params{{2, 3, 4, 5}, {0.5f, 0.25f, -1, 8}};
+    Image<glm::vec4> expected(kOdd);
+    Image<glm::vec2> guide(kOdd, {16, 32});
+    for (std::size_t i = 0; i < input.pixels().size(); ++i)
+        expected.pixels()[i] =
+            input.pixels()[i] * params.factor + params.summand + glm::vec4(16, 32, 32, 32);
+
+    GpuTexture radiance("radiance", PixelFormat::RGBA32F, kOdd);
+    GpuTexture guides("guides", PixelFormat::RG32F, kOdd);
+    GpuTexture scaled("scaled", PixelFormat::RGBA32F, kOdd);
+    radiance.write(input);
+    guides.write(guide);
+    for (const Defines& defines : kFetchPaths) {
+        ComputeProgram program = compile("scale.comp", kScale, defines);
+        CHECK(program.groupSize() == glm::ivec3(8, 8, 1));
+        scaled.clear();
+        program.dispatch(kOdd, params, {{"radiance", radiance}, {"guides", guides}},
+                         {{"scaled", scaled}});
+        // Sums of few multiples of 1/1024: exact in 32 bits.
+        CHECK_CLOSE(scaled.read<glm::vec4>(), expected, Tolerance{});
+    }
+}
+
+TEST_CASE("every kind of fetch gives what was written, by image and by sampler") {
+    testContext();
+    const GlCheck check;
+    const glm::ivec2 size{5, 3};
+    std::mt19937 random(2);
+    Image<glm::uvec4> bits(size);
+    for (glm::uvec4& pixel : bits.pixels())
+        pixel = {random(), random(), random(), random()};
+    const Image<glm::vec4> numbers = randomImage(size, 3);
+    Image<float> ones(size);
+    Image<glm::vec2> twos(size);
+    Image<std::uint32_t> oneBits(size);
+    Image<glm::uvec2> twoBits(size);
+    for (std::size_t i = 0; i < bits.pixels().size(); ++i) {
+        ones.pixels()[i] = numbers.pixels()[i].x;
+        twos.pixels()[i] = glm::vec2(numbers.pixels()[i]);
+        oneBits.pixels()[i] = bits.pixels()[i].x;
+        twoBits.pixels()[i] = glm::uvec2(bits.pixels()[i]);
+    }
+
+    GpuTexture f1("f1", PixelFormat::R32F, size), f2("f2", PixelFormat::RG32F, size),
+        f4("f4", PixelFormat::RGBA32F, size), h4("h4", PixelFormat::RGBA16F, size),
+        u1("u1", PixelFormat::R32UI, size), u2("u2", PixelFormat::RG32UI, size),
+        u4("u4", PixelFormat::RGBA32UI, size), floats("floats", PixelFormat::RGBA32F, size),
+        uints("uints", PixelFormat::RGBA32UI, size);
+    f1.write(ones);
+    f2.write(twos);
+    f4.write(numbers);
+    h4.write(numbers);
+    u1.write(oneBits);
+    u2.write(twoBits);
+    u4.write(bits);
+    TexelBuffer texels("texels", 0);
+    texels.write(bits.pixels());
+
+    const auto fetched = [&](const char* declaration, const char* name, const Binding& binding) {
+        for (const Defines& defines : kFetchPaths) {
+            CAPTURE(declaration);
+            const bool isUint = std::string_view(declaration).starts_with("Uint");
+            const bool isBuffer = binding.buffer != nullptr;
+            ComputeProgram program =
+                compile("fetch.comp",
+                        std::string(declaration) + "(" + name + ");\n" +
+                            (isUint ? "layout(rgba32ui) uniform writeonly uimage2D result;\n"
+                                    : "uniform writeonly image2D result;\n") +
+                            "void main() { ivec2 p = ivec2(gl_GlobalInvocationID.xy);\n" +
+                            "if (p.x < 5 && p.y < 3) imageStore(result, p, " +
+                            (isBuffer ? std::string("fetchBuffer(") + name + ", p.y * 5 + p.x)"
+                                      : std::string("fetch(") + name + ", p)") +
+                            " + " + (isUint ? "uint" : "float") + "(" +
+                            (isBuffer ? "lengthOf(" : "sizeOf(") + name + ")" +
+                            (isBuffer ? "" : ".x") + " - " + (isBuffer ? "15" : "5") + ")); }\n",
+                        defines);
+            GpuTexture& result = isUint ? uints : floats;
+            result.clear();
+            program.dispatch(size, {binding}, {{"result", result}});
+            for (int y = 0; y < size.y; ++y)
+                for (int x = 0; x < size.x; ++x) {
+                    const glm::ivec2 p{x, y};
+                    const bool two = std::string_view(declaration).find('2') != std::string::npos;
+                    const bool four = std::string_view(declaration).find('4') != std::string::npos;
+                    if (isUint) {
+                        glm::uvec4 want = bits(p);
+                        if (!four)
+                            want = two ? glm::uvec4(want.x, want.y, 0, 1)
+                                       : glm::uvec4(want.x, 0, 0, 1);
+                        CHECK(uints.read<glm::uvec4>()(p) == want);
+                    } else {
+                        glm::vec4 want = numbers(p);
+                        if (!four)
+                            want =
+                                two ? glm::vec4(want.x, want.y, 0, 1) : glm::vec4(want.x, 0, 0, 1);
+                        CHECK(floats.read<glm::vec4>()(p) == want);
+                    }
+                }
+        }
+    };
+    fetched("FloatTexture", "f1", {"f1", f1});
+    fetched("Float2Texture", "f2", {"f2", f2});
+    fetched("Float4Texture", "f4", {"f4", f4});
+    fetched("UintTexture", "u1", {"u1", u1});
+    fetched("Uint2Texture", "u2", {"u2", u2});
+    fetched("Uint4Texture", "u4", {"u4", u4});
+    fetched("Uint4Buffer", "texels", {"texels", texels});
+    // 16-bit images are loaded as such whatever the shader's layout says, at least by llvmpipe, the
+    // one driver for which FETCH_BY_IMAGE is chosen.
+    if (glInfo(testContext()).softwareRasterizer)
+        fetched("Float4Texture", "h4", {"h4", h4});
+}
+
+TEST_CASE("an image given to be written can be read in place, and a buffer of texels too") {
+    testContext();
+    const GlCheck check;
+    ComputeProgram program = compile("twice.comp", R"(
+layout(rgba32f) uniform image2D values;
+layout(rgba32ui) uniform uimageBuffer texels;
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, imageSize(values))))
+        return;
+    imageStore(values, p, 2.0 * imageLoad(values, p));
+    if (p.y == 0)
+        imageStore(texels, p.x, imageLoad(texels, p.x) + 1u);
+}
+)");
+    const Image<glm::vec4> input = randomImage(kOdd, 4);
+    GpuTexture values("values", PixelFormat::RGBA32F, kOdd);
+    values.write(input);
+    TexelBuffer texels("texels", 0);
+    texels.write(std::vector<glm::uvec4>(61, {1, 2, 3, 4}));
+    for (int i = 0; i < 3; ++i)
+        program.dispatch(kOdd, {}, {{"values", values}, {"texels", texels}});
+    Image<glm::vec4> expected = input;
+    for (glm::vec4& pixel : expected.pixels())
+        pixel *= 8.0f;
+    CHECK_CLOSE(values.read<glm::vec4>(), expected, Tolerance{});
+    CHECK(texels.read<glm::uvec4>() == std::vector<glm::uvec4>(61, {4, 5, 6, 7}));
+}
+
+TEST_CASE("dispatch refuses names that are misspelt, missing or given twice") {
+    testContext();
+    const GlCheck check;
+    ComputeProgram program = compile("scale.comp", kScale);
+    GpuTexture r("r", PixelFormat::RGBA32F, kOdd), g("g", PixelFormat::RG32F, kOdd);
+    const ScaleParams params{};
+    CHECK(logicErrorOf([&] {
+              program.dispatch(kOdd, params, {{"radiance", r}, {"guide", g}}, {{"scaled", r}});
+          }) == "scale.comp has no texture named guide; it has guides, radiance, scaled");
+    CHECK(logicErrorOf([&] {
+              program.dispatch(kOdd, params, {{"radiance", r}}, {});
+          }) == "scale.comp uses guides, radiance, scaled but was not given guides, scaled");
+    CHECK(logicErrorOf([&] {
+              program.dispatch(kOdd, params, {{"radiance", r}, {"guides", g}, {"scaled", r}},
+                               {{"scaled", r}});
+          }) == "scale.comp was given scaled twice");
+}
+
+TEST_CASE("a surplus name is let pass where bindings are not strict; a missing one never is") {
+    testContext();
+    const GlCheck check;
+    ComputeProgram program = compile("scale.comp", kScale);
+    GpuTexture r("r", PixelFormat::RGBA32F, kOdd), g("g", PixelFormat::RG32F, kOdd);
+    GpuTexture out("out", PixelFormat::RGBA32F, kOdd);
+    setStrictBindings(false);
+    CHECK_NOTHROW(program.dispatch(
+        kOdd, ScaleParams{}, {{"radiance", r}, {"guides", g}, {"unused", r}}, {{"scaled", out}}));
+    CHECK(logicErrorOf([&] {
+              program.dispatch(kOdd, ScaleParams{}, {{"radiance", r}, {"guide", g}},
+                               {{"scaled", out}});
+          }) == "scale.comp uses guides, radiance, scaled but was not given guides");
+    setStrictBindings(true);
+}
+
+TEST_CASE("dispatch refuses a texture of another kind than the shader declares") {
+    testContext();
+    const GlCheck check;
+    GpuTexture floats("floats", PixelFormat::RGBA32F, kOdd),
+        uints("uints", PixelFormat::RG32UI, kOdd), guides("guides", PixelFormat::RG32F, kOdd),
+        depth("depth", PixelFormat::Depth32F, kOdd);
+    TexelBuffer texels("texels", 0);
+    const auto give = [&](const Defines& defines, const Binding& radiance, const Binding& scaled) {
+        return logicErrorOf([&] {
+            compile("scale.comp", kScale, defines)
+                .dispatch(kOdd, ScaleParams{}, {radiance, {"guides", guides}}, {scaled});
+        });
+    };
+    CHECK(give({}, {"radiance", uints}, {"scaled", floats}) ==
+          "scale.comp declares radiance as sampler2D, but was given a texture of format RG32UI");
+    CHECK(give({}, {"radiance", texels}, {"scaled", floats}) ==
+          "scale.comp declares radiance as sampler2D, but was given a buffer of texels");
+    CHECK(give({}, {"radiance", floats}, {"scaled", uints}) ==
+          "scale.comp declares scaled as image2D, but was given a texture of format RG32UI");
+    CHECK(give(kFetchPaths[1], {"radiance", depth}, {"scaled", floats}) ==
+          "scale.comp declares radiance as image2D, but was given a texture of format Depth32F");
+    CHECK(give({}, {"radiance", GpuTexture()}, {"scaled", floats}) ==
+          "scale.comp was given nothing as radiance: the texture was never made");
+    CHECK(logicErrorOf([&] {
+              compile("scale.comp", kScale)
+                  .dispatch(kOdd, ScaleParams{}, {{"guides", guides}},
+                            {{"radiance", floats}, {"scaled", floats}});
+          }) == "scale.comp samples radiance; it cannot be written");
+}
+
+TEST_CASE("dispatch refuses parameters that are not of the size of the block") {
+    testContext();
+    const GlCheck check;
+    GpuTexture r("r", PixelFormat::RGBA32F, kOdd), g("g", PixelFormat::RG32F, kOdd);
+    GpuTexture out("out", PixelFormat::RGBA32F, kOdd);
+    ComputeProgram scale = compile("scale.comp", kScale);
+    CHECK(
+        logicErrorOf([&] {
+            scale.dispatch(kOdd, glm::mat4(1), {{"radiance", r}, {"guides", g}}, {{"scaled", out}});
+        }) == "scale.comp: its Params block is 32 bytes, but 64 were given");
+    CHECK(logicErrorOf([&] {
+              scale.dispatch(kOdd, {{"radiance", r}, {"guides", g}}, {{"scaled", out}});
+          }) == "scale.comp: its Params block is 32 bytes, but 0 were given");
+    ComputeProgram plain = compile("plain.comp", "void main() {}\n");
+    CHECK(logicErrorOf([&] { plain.dispatch(kOdd, glm::vec4(1), {}, {}); }) ==
+          "plain.comp has no Params block, but 16 bytes were given");
+    CHECK_NOTHROW(plain.dispatch(kOdd, {}, {}));
+}
+
+TEST_CASE("dispatch leaves the frame's block as it is bound") {
+    testContext();
+    const GlCheck check;
+    GpuBuffer frame("frame", 16);
+    frame.write(std::array{glm::vec4(1, 2, 3, 4)});
+    glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, frame.id());
+    ComputeProgram program = compile("frame.comp", R"(
+layout(std140, binding = 0) uniform Frame { vec4 ofFrame; };
+layout(std140, binding = 1) uniform Params { vec4 ofPass; };
+uniform writeonly image2D result;
+void main() { imageStore(result, ivec2(gl_GlobalInvocationID.xy), ofFrame + ofPass); }
+)");
+    GpuTexture result("result", PixelFormat::RGBA32F, {8, 8});
+    program.dispatch({8, 8}, glm::vec4(10), {}, {{"result", result}});
+    program.dispatch({8, 8}, glm::vec4(20), {}, {{"result", result}});
+    CHECK_CLOSE(result.read<glm::vec4>(), Image<glm::vec4>({8, 8}, {21, 22, 23, 24}), Tolerance{});
+    glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, 0);
+}
+
+TEST_CASE("a shader that does not compile is an error at its own line") {
+    testContext();
+    const GlCheck check; // what the compiler says is not a misuse of OpenGL
+    const std::string error =
+        errorOf([] { compile("bad.comp", "void main() { dott(vec3(1), vec3(1)); }\n"); });
+    CHECK(error.starts_with("bad.comp:4: "));
+    CHECK(error.find("dott") != std::string::npos);
+    if (glInfo(testContext()).softwareRasterizer)
+        CHECK(error == "bad.comp:4: no function with name 'dott'");
+    CHECK(errorOf([] {
+              compile("loop.comp", "void f();\nvoid main() { f(); }\n");
+          }).starts_with("loop.comp: "));
+}
+
+TEST_CASE("the top of clip space is row 0, and depth runs from 0 to 1") {
+    testContext();
+    const GlCheck check;
+    const ShaderSource& source = testShaders().source();
+    RasterProgram program("half.vert + half.frag",
+                          source.expandText("half.vert", R"(#version 450 core
+layout(std140, binding = 1) uniform Params { vec4 lowest; };
+uniform float depth;
+void main() { // a triangle over all of the picture above y = lowest
+    vec2 corner = vec2(gl_VertexID == 1 ? 5.0 : -1.0, gl_VertexID == 2 ? 5.0 + lowest.y : lowest.y);
+    gl_Position = vec4(corner, depth, 1.0);
+}
+)"),
+                          source.expandText("half.frag", R"(#version 450 core
+layout(location = 0) out uvec2 id;
+uniform uint mark;
+void main() { id = uvec2(mark, uint(gl_FragCoord.y)); }
+)"));
+    const glm::ivec2 size{6, 10};
+    const GpuTexture ids("ids", PixelFormat::RG32UI, size),
+        depth("depth", PixelFormat::Depth32F, size);
+    const Framebuffer framebuffer("half", {&ids}, &depth);
+    framebuffer.bind();
+    framebuffer.clearColor(0, glm::uvec4(0));
+    framebuffer.clearDepth(1.0f);
+    const auto vertices = GlObject<VertexArrayKind>::create("none");
+    glBindVertexArray(vertices.id());
+    glEnable(GL_DEPTH_TEST);
+    program.use(glm::vec4(0.0f));
+    program.set("depth", 0.25f);
+    program.set("mark", std::uint32_t(7));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_DEPTH_TEST);
+    CHECK(logicErrorOf([&] { program.set("dept", 1.0f); }) ==
+          "half.vert + half.frag has no uniform named dept");
+
+    const auto drawn = ids.read<glm::uvec2>();
+    const auto depths = depth.read<float>();
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const bool covered = y < size.y / 2; // the upper half of clip space
+            CHECK(drawn({x, y}) == (covered ? glm::uvec2(7, y) : glm::uvec2(0)));
+            CHECK(depths({x, y}) == (covered ? 0.25f : 1.0f));
+        }
+}
+
+TEST_CASE("a probe maps an expression over its inputs") {
+    const GlCheck check;
+    std::vector<glm::vec4> inputs, expected;
+    for (int i = 0; i < 1000; ++i) {
+        inputs.emplace_back(i, 0.5f * float(i), -i, 1);
+        expected.emplace_back(2 * i, i, -2 * i, 2 + i);
+    }
+    CHECK_CLOSE(probe({}, "2.0 * x + vec4(0, 0, 0, i)", inputs), expected, Tolerance{});
+    CHECK(errorOf([&] { probe({}, "nothing(x)", inputs); }).find("nothing") != std::string::npos);
+}

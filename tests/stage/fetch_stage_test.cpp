@@ -1,0 +1,37 @@
+#include <doctest/doctest.h>
+
+#include "tests/stage/stage_runner.h"
+#include "tests/support/compare.h"
+#include "tests/support/gl_fixture.h"
+
+using namespace afterglow;
+using namespace afterglow::test;
+
+TEST_CASE("fetching by sampler and by image gives the same bits in every stage") {
+    // As on a GPU: without FETCH_BY_IMAGE. Where testShaders() is that already, this is trivial.
+    ShaderLibrary bySampler(testShaders().source());
+    const auto each = [&](auto run) {
+        const auto a = run(testShaders());
+        const auto b = run(bySampler);
+        CHECK_CLOSE(a, b, Tolerance{});
+    };
+    const gpu::EdgeStopping edges{4.0f, 128.0f, 1.0f, 2};
+    for (const glm::ivec2 size : kStageSizes) {
+        CAPTURE(size.x);
+        CAPTURE(size.y);
+        const RandomFrame frame(size, 31);
+        for (const Kernel kernel : {Kernel::B3Spline5x5, Kernel::Box3x3}) {
+            each([&](ShaderLibrary& s) { return runAtrous(s, frame, kernel, edges); });
+            each([&](ShaderLibrary& s) { return runGradientAtrous(s, frame, kernel, edges); });
+        }
+        each([&](ShaderLibrary& s) { return runGradient(s, frame).gradient; });
+        each([&](ShaderLibrary& s) { return runGradient(s, frame).guides; });
+        each([&](ShaderLibrary& s) { return runVariance(s, frame, {128.0f, 1.0f, 4.0f, 0.0f}); });
+        each([&](ShaderLibrary& s) { return runLambda(s, frame, {1e-4f, -1.0f, 0.0f, 0.0f}); });
+        const gpu::TemporalParams temporal{
+            0.1f, 0.2f, 64.0f, 2.0f, 0.9f, gpu::kLambdaBilinear, gpu::kHistoryEffective, 1};
+        each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).accumulated; });
+        each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).moments; });
+        each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).control; });
+    }
+}

@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include <bit>
+
+#include "tests/reference/gradient.h"
+#include "tests/stage/stage_runner.h"
+#include "tests/support/compare.h"
+#include "tests/support/gl_fixture.h"
+
+using namespace afterglow;
+using namespace afterglow::test;
+
+namespace {
+
+// Sums of nine at most. llvmpipe: 3e-7.
+constexpr Tolerance kTolerance{.max = 2e-6, .relative = 2e-6};
+// llvmpipe: 7e-6, where little variance makes the luminance weight steep; the rest is for pow() and
+// exp() on GPUs.
+constexpr Tolerance kFilterTolerance{.max = 3e-5, .relative = 3e-5};
+constexpr Tolerance kExact{};
+
+} // namespace
+
+TEST_CASE("gradient samples and the guides of strata follow the paper, at every size") {
+    double largest = 0.0;
+    for (const glm::ivec2 size : kStageSizes)
+        for (const std::uint32_t seed : {7u, 8u, 9u, 10u}) {
+            CAPTURE(size.x);
+            CAPTURE(size.y);
+            CAPTURE(seed);
+            const RandomFrame frame(size, seed);
+            const auto strata = runGradient(testShaders(), frame);
+            const auto expected =
+                reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope});
+            CHECK_CLOSE(strata.gradient, expected.gradient, kTolerance);
+            CHECK_CLOSE(strata.guides, expected.guides, kExact);
+            CHECK_CLOSE(strata.slope, expected.slope, kExact);
+            largest =
+                std::max(largest, compare(strata.gradient, expected.gradient, kTolerance).largest);
+        }
+    MESSAGE("largest difference: ", largest);
+}
+
+TEST_CASE("a sample that did not change has no gradient, bit for bit") {
+    const RandomFrame frame({61, 37}, 7);
+    const auto strata = runGradient(testShaders(), frame);
+    int still = 0, changed = 0;
+    for (int y = 0; y < frame.strata.y; ++y)
+        for (int x = 0; x < frame.strata.x; ++x) {
+            const glm::uvec4 sample = frame.samples({x, y});
+            if (sample.y == 0)
+                continue;
+            const int landing = int(sample.y) - 1;
+            const glm::ivec2 p = 3 * glm::ivec2(x, y) + glm::ivec2(landing % 3, landing / 3);
+            const bool isStill = std::bit_cast<float>(std::uint32_t(sample.x)) == frame.raw(p).a;
+            CHECK((strata.gradient({x, y}).x == 0.0f) == isStill);
+            ++(isStill ? still : changed);
+        }
+    CHECK(still > 20);
+    CHECK(changed > 20);
+}
+
+TEST_CASE("a gradient a-trous iteration follows the paper, at every size, step and kernel") {
+    double largest = 0.0;
+    for (const glm::ivec2 size : kStageSizes)
+        for (const std::uint32_t seed : {7u, 8u})
+            for (const Kernel kernel : {Kernel::B3Spline5x5, Kernel::Box3x3})
+                for (const int step : {1, 2, 4, 8, 16})
+                    for (const float sigmaDepth : {1.0f, 20.0f}) {
+                        CAPTURE(size.x);
+                        CAPTURE(size.y);
+                        CAPTURE(seed);
+                        CAPTURE(int(kernel));
+                        CAPTURE(step);
+                        CAPTURE(sigmaDepth);
+                        const RandomFrame frame(size, seed);
+                        const gpu::EdgeStopping params{4.0f, 128.0f, sigmaDepth, step};
+                        const auto filtered =
+                            runGradientAtrous(testShaders(), frame, kernel, params);
+                        const auto expected = reference::gradientAtrous(
+                            frame.gradient, frame.strataGuides, frame.strataSlope, kernel, params);
+                        CHECK_CLOSE(filtered, expected, kFilterTolerance);
+                        largest = std::max(largest,
+                                           compare(filtered, expected, kFilterTolerance).largest);
+                    }
+    MESSAGE("largest difference: ", largest);
+}
+
+TEST_CASE("lambda is the share that changed, 0 below the floor, or what it is forced to be") {
+    double largest = 0.0;
+    for (const glm::ivec2 size : kStageSizes)
+        for (const std::uint32_t seed : {7u, 8u})
+            for (const gpu::GradientParams& params :
+                 {gpu::GradientParams{1e-4f, -1.0f, 0.0f, 0.0f},
+                  gpu::GradientParams{0.8f, -1.0f, 0.0f, 0.0f},
+                  gpu::GradientParams{0.0f, -1.0f, 0.0f, 0.0f},
+                  gpu::GradientParams{1e-4f, 0.0f, 0.0f, 0.0f},
+                  gpu::GradientParams{1e-4f, 0.3f, 0.0f, 0.0f},
+                  gpu::GradientParams{1e-4f, 1.0f, 0.0f, 0.0f}}) {
+                CAPTURE(size.x);
+                CAPTURE(size.y);
+                CAPTURE(seed);
+                CAPTURE(params.deltaFloor);
+                CAPTURE(params.forceLambda);
+                RandomFrame frame(size, seed);
+                frame.gradient({0, 0}) = glm::vec4(0.5f, 0.8f, 0.0f, 0.0f); // on one of the floors
+                const auto lambda = runLambda(testShaders(), frame, params);
+                const auto expected = reference::lambda(frame.gradient, params);
+                CHECK_CLOSE(lambda, expected, kTolerance);
+                largest = std::max(largest, compare(lambda, expected, kTolerance).largest);
+            }
+    MESSAGE("largest difference: ", largest);
+}

@@ -1,0 +1,290 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/reference/atrous.h"
+#include "tests/reference/gradient.h"
+#include "tests/reference/temporal.h"
+#include "tests/reference/variance.h"
+#include "tests/stage/spoilt_shaders.h"
+#include "tests/stage/stage_runner.h"
+#include "tests/support/compare.h"
+#include "tests/support/gl_fixture.h"
+
+// Would the stage tests notice? Each case plants one error in the text of a shader, runs the real
+// pass with it, and demands that the comparison with the reference fails by a clear margin.
+
+using namespace afterglow;
+using namespace afterglow::test;
+
+namespace {
+
+constexpr Tolerance kTolerance{.max = 3e-5, .relative = 3e-5}; // the widest of the stage tests
+constexpr double kClearMargin = 1e-2; // more than three hundred times the tolerance
+
+/// The largest difference of anything compared; infinite where it is not a number.
+struct Verdict {
+    bool close = true;
+    double largest = 0.0;
+
+    template <class Actual, class Expected>
+    void add(const Actual& actual, const Expected& expected) {
+        const Comparison comparison = compare(actual, expected, kTolerance);
+        close = close && comparison.close;
+        largest = std::max(largest, comparison.largest);
+    }
+};
+
+/// Usual ones, and some so wide that only the depth 0 of background keeps it out.
+const gpu::EdgeStopping kEdges[] = {
+    {4.0f, 128.0f, 1.0f, 1}, {4.0f, 128.0f, 1.0f, 4}, {100.0f, 1.0f, 20.0f, 4}};
+
+using Measure = std::function<Verdict(ShaderLibrary&)>;
+
+Verdict measureAtrous(ShaderLibrary& shaders) {
+    Verdict verdict;
+    const RandomFrame frame({61, 37}, 21);
+    for (const Kernel kernel : {Kernel::B3Spline5x5, Kernel::Box3x3})
+        for (const gpu::EdgeStopping& params : kEdges) {
+            verdict.add(runAtrous(shaders, frame, kernel, params),
+                        reference::atrous(frame.signal, frame.guides, frame.slope, kernel, params));
+        }
+    return verdict;
+}
+
+Verdict measureTemporal(ShaderLibrary& shaders) {
+    Verdict verdict;
+    for (const std::uint32_t seed : {21u, 22u, 23u})
+        for (const int fetch : {gpu::kLambdaNearest, gpu::kLambdaBilinear, gpu::kLambdaMax})
+            for (const int law :
+                 {gpu::kHistoryEffective, gpu::kHistoryFrames, gpu::kHistoryPower}) {
+                const RandomFrame frame({61, 37}, seed);
+                const float maxHistory = law == gpu::kHistoryFrames ? 6.0f : 64.0f;
+                const gpu::TemporalParams params{0.1f, 0.2f, maxHistory, 1.0f, 0.9f, fetch, law, 1};
+                const auto images = runTemporal(shaders, frame, true, params);
+                const auto expected = reference::temporal(
+                    {frame.raw, frame.visibility, frame.previousVisibility, frame.guides,
+                     frame.previousGuides, frame.slope, frame.motion, frame.previousColor,
+                     frame.previousMoments, frame.lambda, true},
+                    params);
+                verdict.add(images.accumulated, expected.accumulated);
+                verdict.add(images.moments, expected.moments);
+                verdict.add(images.control, expected.control);
+            }
+    return verdict;
+}
+
+Verdict measureVariance(ShaderLibrary& shaders) {
+    Verdict verdict;
+    const RandomFrame frame({61, 37}, 21);
+    for (const gpu::VarianceParams& params : {gpu::VarianceParams{128.0f, 1.0f, 4.0f, 0.0f},
+                                              gpu::VarianceParams{1.0f, 20.0f, 4.0f, 0.0f}})
+        verdict.add(runVariance(shaders, frame, params),
+                    reference::variance(
+                        {frame.accumulated, frame.moments, frame.guides, frame.slope}, params));
+    return verdict;
+}
+
+Verdict measureGradient(ShaderLibrary& shaders) {
+    Verdict verdict;
+    const RandomFrame frame({61, 37}, 21);
+    const auto strata = runGradient(shaders, frame);
+    const auto expected =
+        reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope});
+    verdict.add(strata.gradient, expected.gradient);
+    verdict.add(strata.guides, expected.guides);
+    verdict.add(strata.slope, expected.slope);
+    return verdict;
+}
+
+Verdict measureGradientAtrous(ShaderLibrary& shaders) {
+    Verdict verdict;
+    const RandomFrame frame({61, 37}, 21);
+    for (const Kernel kernel : {Kernel::B3Spline5x5, Kernel::Box3x3}) {
+        for (const gpu::EdgeStopping& params : kEdges)
+            verdict.add(runGradientAtrous(shaders, frame, kernel, params),
+                        reference::gradientAtrous(frame.gradient, frame.strataGuides,
+                                                  frame.strataSlope, kernel, params));
+    }
+    return verdict;
+}
+
+Verdict measureLambda(ShaderLibrary& shaders) {
+    Verdict verdict;
+    RandomFrame frame({61, 37}, 21);
+    frame.gradient({0, 0}) = glm::vec4(0.5f, 0.8f, 0.0f, 0.0f); // on the floor
+    for (const float forced : {-1.0f, 0.0f, 0.3f}) {
+        const gpu::GradientParams params{0.8f, forced, 0.0f, 0.0f};
+        verdict.add(runLambda(shaders, frame, params), reference::lambda(frame.gradient, params));
+    }
+    return verdict;
+}
+
+/// An error that somebody might make.
+struct Mutant {
+    std::string what;
+    std::string file;
+    std::string from; ///< stands in the file once
+    std::string to;
+    double margin = kClearMargin; ///< the least difference that must show
+};
+
+void checkMutants(const Measure& measure, const std::vector<Mutant>& mutants) {
+    SpoiltShaders shaders;
+    {
+        ShaderLibrary unchanged = shaders.library();
+        REQUIRE(measure(unchanged).close);
+    }
+    for (const Mutant& mutant : mutants) {
+        CAPTURE(mutant.what);
+        const int found = shaders.spoil(mutant.file, mutant.from, mutant.to);
+        CHECK_MESSAGE(found == 1, mutant.file, " has ", found, " times: ", mutant.from);
+        ShaderLibrary library = shaders.library();
+        const Verdict verdict = measure(library);
+        MESSAGE(mutant.what, ": ", verdict.largest);
+        CHECK(!verdict.close);
+        CHECK(verdict.largest > mutant.margin);
+        shaders.mend(mutant.file);
+    }
+}
+
+} // namespace
+
+TEST_CASE("errors planted in the a-trous iteration do not pass") {
+    const std::string file = "denoise/atrous.comp";
+    checkMutants(
+        measureAtrous,
+        {{"swizzle of the tap's luminance", file, "luminance(other.rgb)", "luminance(other.rbg)"},
+         {"variance weight not squared", file, "w * w * other.a", "w * other.a"},
+         {"variance normalized once", file, "varianceSum / (weightSum * weightSum)",
+          "varianceSum / weightSum"},
+         {"variance not smoothed", file, "fetch(signal, clamp(p + ivec2(x, y), ivec2(0), last)).a",
+          "fetch(signal, p).a"},
+         {"variance smoothed by another kernel", file, "1.0 / 2.0, 1.0 / 4.0",
+          "1.0 / 3.0, 1.0 / 3.0"},
+         {"standard deviation not rooted", file, "sqrt(max(smoothedVariance(p, last), 0.0))",
+          "max(smoothedVariance(p, last), 0.0)"},
+         {"step forgotten in the depth weight", file, "vec2(offset), params.sigmaDepth",
+          "vec2(x, y), params.sigmaDepth"},
+         {"background as a tap", file, "otherGuide.w == 0.0", "false"},
+         {"background blackened", file, "imageStore(filtered, p, center)",
+          "imageStore(filtered, p, vec4(0.0))"},
+         {"depth epsilon in metres", "lib/edge_stopping.glsl", "1e-3 * depth", "1e-3"},
+         {"slope taken by its length", "lib/edge_stopping.glsl", "abs(dot(slope, offset))",
+          "length(slope) * length(offset)"},
+         {"exponent of the normals forgotten", "lib/edge_stopping.glsl", "pow(cosine, sigma)",
+          "cosine"},
+         {"spline with a heavy rim", "lib/kernel.glsl", "1.0 / 4.0, 1.0 / 16.0",
+          "1.0 / 4.0, 1.0 / 8.0"},
+         {"luminance of another color order", "lib/color.glsl", "0.2126, 0.7152, 0.0722",
+          "0.0722, 0.7152, 0.2126"}});
+}
+
+TEST_CASE("errors planted in the temporal accumulation do not pass") {
+    const std::string file = "denoise/temporal.comp";
+    checkMutants(
+        measureTemporal,
+        {{"motion with the wrong sign", file, "vec2(p) + moved.xy", "vec2(p) - moved.xy"},
+         {"motion with y upwards", file, "vec2(p) + moved.xy", "vec2(p) + moved.xy * vec2(1, -1)"},
+         {"history fetched half a pixel off", file, "vec2(p) + moved.xy",
+          "vec2(p) + 0.5 + moved.xy"},
+         {"lambda forgotten for the moments", file,
+          "(1.0 - l) * max(params.alphaMoments, leastWeight) + l",
+          "max(params.alphaMoments, leastWeight)"},
+         {"lambda added, not blended", file, "(1.0 - l) * max(params.alpha, leastWeight) + l",
+          "min(1.0, max(params.alpha, leastWeight) + l)"},
+         {"start of the average forgotten", file, "max(params.alpha, leastWeight)", "params.alpha"},
+         {"color not normalized by the valid taps", file, "history.color /= weightSum;", ""},
+         {"length not normalized by the valid taps", file, "history.samples /= weightSum;", ""},
+         {"swizzle of the history", file, "fetch(previousColor, q).rgb",
+          "fetch(previousColor, q).rbg"},
+         {"depth tolerance in metres", file, "kDepthEpsilon * moved.z", "kDepthEpsilon"},
+         {"depth against the current one", file, "instance, moved.z, tolerance",
+          "instance, fetch(guides, p).w, tolerance"},
+         {"instances not compared", file, "fetch(previousVisibility, q).x != instance",
+          "fetch(previousVisibility, q).x < min(instance, 1u)"},
+         {"normals not compared", file, ">= params.normalTolerance", ">= -2.0"},
+         {"a trace of history accepted", file, "weightSum < kLeastWeight", "weightSum <= 0.0"},
+         {"reason of the last of equals", file, "weight > largest", "weight >= largest"},
+         {"points behind the camera accepted", file, "moved.w == 0.0", "false"},
+         {"strata centered on their corner", file, "/ float(kStratumSize) - 0.5",
+          "/ float(kStratumSize)"},
+         {"largest lambda of the own stratum only", file, "lambdaOf(s + ivec2(x, y))",
+          "lambdaOf(s)"},
+         {"effective length with the weight not squared", file,
+          "(1.0 - alpha) * (1.0 - alpha) / samples", "(1.0 - alpha) / samples"},
+         {"a frame too many", file, "next = samples + 1.0", "next = samples + 2.0"},
+         {"power of the third law", file, "pow(1.0 - l, 10.0)", "pow(1.0 - l, 8.0)"},
+         {"no limit to the length", file, "min(next, params.maxHistory)", "next"},
+         {"second moment of the mean", file, "current.a * current.a", "current.a"}});
+}
+
+TEST_CASE("errors planted in the variance stage do not pass") {
+    const std::string file = "denoise/variance.comp";
+    checkMutants(measureVariance,
+                 {{"factor 4/N dropped", file, "params.minHistory / max(history, 1.0)", "1.0"},
+                  {"factor 4/N without a limit", file, "max(history, 1.0)", "(history + 1.0)"},
+                  {"5x5 for 7x7", file, "kRadius = 3", "kRadius = 2"},
+                  {"one frame too many in space", file, "history < params.minHistory",
+                   "history <= params.minHistory"},
+                  {"negative variance turned over", file, "max(0.0, mean.y - mean.x * mean.x)",
+                   "abs(mean.y - mean.x * mean.x)"},
+                  {"mean not squared", file, "mean.y - mean.x * mean.x", "mean.y - mean.x"},
+                  {"normals forgotten", file,
+                   "normalWeight(guide.xyz, otherGuide.xyz, params.sigmaNormal)", "1.0"},
+                  {"background as a tap", file, "otherGuide.w == 0.0", "false"},
+                  {"swizzle of the signal", file, "fetch(accumulated, p).rgb",
+                   "fetch(accumulated, p).rbg"}});
+}
+
+TEST_CASE("errors planted in the gradient samples do not pass") {
+    const std::string file = "denoise/gradient.comp";
+    checkMutants(
+        measureGradient,
+        {{"the smaller for the larger", file, "max(now, before)", "min(now, before)"},
+         {"delta with the wrong sign", file, "now - before", "before - now"},
+         {"delta without its sign", file, "now - before", "abs(now - before)"},
+         {"x and y of the place exchanged", file, "place % kStratumSize, place / kStratumSize",
+          "place / kStratumSize, place % kStratumSize"},
+         {"place off by one", file, "carried.y - 1u", "carried.y % 9u"},
+         {"partial strata counted as whole", file, "(values[i] - mean) / float(count)",
+          "(values[i] - mean) / 9.0"},
+         {"variance of a sample", file, "(values[i] - mean) / float(count)",
+          "(values[i] - mean) / max(1.0, float(count - 1))"},
+         {"guides of the corner", file, "min(first + 1, last)", "min(first, last)"},
+         {"guides of the last pixel", file, "hasGuide ? guidePixel : p", "p"}});
+}
+
+TEST_CASE("errors planted in the gradient reconstruction do not pass") {
+    const std::string file = "denoise/gradient_atrous.comp";
+    checkMutants(
+        measureGradientAtrous,
+        {{"distance in strata", file, "vec2(offset) * float(kStratumSize)", "vec2(offset)"},
+         {"edges of delta, not of luminance", file, "abs(center.z - other.z)",
+          "abs(center.x - other.x)"},
+         {"variance weight not squared", file, "w * w * other.w", "w * other.w"},
+         {"variance smoothed from another channel", file, "ivec2(0), last)).w",
+          "ivec2(0), last)).z"},
+         {"background as a tap", file, "otherGuide.w == 0.0", "false"},
+         {"background blackened", file, "imageStore(filtered, s, center)",
+          "imageStore(filtered, s, vec4(0.0))"},
+         {"box with a light middle", "lib/kernel.glsl", "1.0 / 3.0, 1.0 / 3.0",
+          "1.0 / 4.0, 3.0 / 8.0"}});
+}
+
+TEST_CASE("errors planted in lambda do not pass") {
+    const std::string file = "denoise/lambda.comp";
+    checkMutants(
+        measureLambda,
+        {{"lambda without its limit", file, "min(1.0, abs(change.x) / change.y)",
+          "abs(change.x) / change.y"},
+         {"darkening not seen", file, "abs(change.x)", "max(change.x, 0.0)"},
+         {"numerator and denominator exchanged", file, "fetch(gradient, s).xy",
+          "fetch(gradient, s).yx"},
+         {"the floor itself counts", file, "change.y > params.deltaFloor",
+          "change.y >= params.deltaFloor"},
+         {"forcing 0 forgotten", file, "params.forceLambda >= 0.0", "params.forceLambda > 0.0"}});
+}

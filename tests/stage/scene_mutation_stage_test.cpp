@@ -1,0 +1,252 @@
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/stage/scene_judges.h"
+#include "tests/stage/spoilt_shaders.h"
+#include "tests/support/sequence.h"
+
+// Would the tests of the stages that know the scene notice? Each case plants one error in the text
+// of a shader, renders a few frames with it, and demands that the comparison with the reference
+// fails by a clear margin.
+
+using namespace afterglow;
+using namespace afterglow::test;
+
+namespace {
+
+/// What a stage's test would hold against the shaders: its largest difference as a multiple of the
+/// bound, or the number of pixels or strata that are wrong, whichever is more.
+using Measure = std::function<double(ShaderLibrary&)>;
+
+constexpr glm::ivec2 kSize{31, 19};
+
+/// Two frames of the scene of oddities, in which camera, bodies and lamps differ.
+struct Pair {
+    SceneFrames frames;
+    SceneFrame first, second;
+
+    Pair(ShaderLibrary& shaders, Settings settings)
+        : frames(sceneOfOddities(), kSize, settings, shaders) {
+        const Camera start = frames.camera;
+        first = frames.next();
+        shake(frames, start, 1, 0.05f);
+        frames.seconds = 0.2;
+        frames.light("plain").tint = {0.5f, 2.0f, 1.0f};
+        second = frames.next();
+    }
+};
+
+double measureVisibility(ShaderLibrary& shaders) {
+    const Pair pair(shaders, settingsOf(Filter::None));
+    const VisibilityVerdict verdict = judgeVisibility(pair.second);
+    return std::max(
+        {double(verdict.wrong), verdict.largestShift / 5e-4, verdict.largestWeight / 3e-5});
+}
+
+double measureSurface(ShaderLibrary& shaders) {
+    Pair pair(shaders, settingsOf(Filter::None));
+    // With a lamp in the picture.
+    pair.frames.camera = lookAt({1.5f, 0.2f, 2.2f}, {-0.3f, 1.7f, 0.2f}, {.verticalFov = 1.3f});
+    const SceneFrame third = pair.frames.next();
+    double most = 0.0;
+    for (const SceneFrame& frame : {pair.second, third}) {
+        const SurfaceVerdict v = judgeSurface(pair.frames, frame);
+        most = std::max({most, double(v.wrong), v.position / 5e-7, v.geometric / 7e-5,
+                         v.shading / 1e-6, v.depth / 2e-6, v.slope / 2e-6, v.motion / 5e-4,
+                         v.motionDepth / 2e-6, v.material / 1e-6});
+    }
+    return most;
+}
+
+/// Walls that meet, and bodies one before the other.
+double measureForward(ShaderLibrary& shaders) {
+    struct Way {
+        const char* scene;
+        float metres;
+    };
+    ForwardVerdict sum;
+    for (const Way& way : {Way{"cornell", 0.03f}, Way{"oddities", 0.08f}}) {
+        SceneFrames merging(sceneNamed(way.scene), {61, 37},
+                            settingsOf(Filter::Asvgf, Signal::Shadows), shaders);
+        SceneFrames plain(sceneNamed(way.scene), {61, 37},
+                          settingsOf(Filter::None, Signal::Shadows));
+        const Camera start = merging.camera;
+        for (int i = 0; i < 6; ++i) {
+            for (SceneFrames* each : {&merging, &plain}) {
+                shake(*each, start, i, way.metres);
+                each->seconds = 0.15 * i;
+            }
+            const SceneFrame merged = merging.next(), unmerged = plain.next();
+            if (i > 0)
+                sum += judgeForward(merged, unmerged);
+        }
+    }
+    return sum.wrong;
+}
+
+double measureLighting(ShaderLibrary& shaders) {
+    Settings settings = settingsOf(Filter::None);
+    settings.lighting.aoRadius = 0.3f; // so that many a ray hits something
+    const Pair pair(shaders, settings);
+    const LightingVerdict verdict = judgeLighting(pair.frames, pair.second);
+    return std::max(double(verdict.wrong), verdict.luminance / 1e-6);
+}
+
+double measurePicture(ShaderLibrary& shaders) {
+    Settings settings = settingsOf(Filter::None);
+    settings.display.exposure = -1.0f;
+    const Pair pair(shaders, settings);
+    const PictureVerdict verdict = judgePicture(pair.frames, pair.second);
+    return std::max({double(verdict.wrong), verdict.composed / 1e-6, verdict.display / 0.51});
+}
+
+/// An error that somebody might make.
+struct Mutant {
+    std::string what;
+    std::string file;
+    std::string from; ///< stands in the file, once unless said otherwise
+    std::string to;
+    int times = 1;
+};
+
+void checkMutants(const Measure& measure, const std::vector<Mutant>& mutants) {
+    SpoiltShaders shaders;
+    {
+        ShaderLibrary unchanged = shaders.library();
+        REQUIRE(measure(unchanged) <= 1.0);
+    }
+    for (const Mutant& mutant : mutants) {
+        CAPTURE(mutant.what);
+        const int found = shaders.spoil(mutant.file, mutant.from, mutant.to);
+        CHECK_MESSAGE(found == mutant.times, mutant.file, " has ", found, " times: ", mutant.from);
+        ShaderLibrary library = shaders.library();
+        const double failure = measure(library);
+        MESSAGE(mutant.what, ": ", failure);
+        CHECK(failure >= 3.0);
+        shaders.mend(mutant.file);
+    }
+}
+
+} // namespace
+
+TEST_CASE("errors planted in the visibility stage do not pass") {
+    const std::string file = "scene/resolve.comp";
+    checkMutants(measureVisibility,
+                 {{"the pixel's corner for its center", file, "vec2(p) + 0.5", "vec2(p)"},
+                  {"x and y exchanged in the seed", file, "newSeed(p,", "newSeed(p.yx,"},
+                  {"barycentrics exchanged", file, "floatBitsToUint(b)", "floatBitsToUint(b.yx)"},
+                  {"seed with too few bits", "lib/seed.glsl", "kTileBits = 7", "kTileBits = 4"}});
+}
+
+TEST_CASE("errors planted in the surface stage do not pass") {
+    const std::string file = "scene/surface.comp";
+    checkMutants(measureSurface,
+                 {{"slope with y upwards", file, "vec2(1.0, -1.0)", "vec2(1.0, 1.0)"},
+                  {"slope of half a pixel", file, "= 2.0 * frame.tanHalfFov", "= frame.tanHalfFov"},
+                  {"motion with the wrong sign", file, "pixelOf(previousClip) - pixelOf(clip)",
+                   "pixelOf(clip) - pixelOf(previousClip)"},
+                  {"instances at rest", file, "instanceTransform(instance, true)", "now"},
+                  {"camera at rest", file, "frame.previousClipFromWorld", "frame.clipFromWorld"},
+                  {"depth of this frame in the motion", file, "vec4(moved, previousDepth",
+                   "vec4(moved, depth"},
+                  {"flat normals", file, "vec4(normal, depth)", "vec4(geometric, depth)"},
+                  {"normals transformed like points", "lib/geometry.glsl",
+                   "return normalize(determinant3(m) < 0.0 ? -c : c)",
+                   "return normalize(transformPoint(m, n) - transformPoint(m, vec3(0.0)))"},
+                  {"distance for depth", file, "float depth = -viewPosition.z",
+                   "float depth = length(viewPosition)"},
+                  {"lamps that cannot be tinted", file, "emitted.rgb * scale",
+                   "emitted.rgb * (1.0 + 1e-30 * scale)"},
+                  {"the neighbor's vertex", "lib/geometry.glsl",
+                   "corner + barycentrics.x * t.edge1 + barycentrics.y * t.edge2",
+                   "corner + barycentrics.y * t.edge1 + barycentrics.x * t.edge2"}});
+}
+
+TEST_CASE("errors planted in the forward projection do not pass") {
+    const std::string claim = "denoise/forward_claim.comp", merge = "denoise/forward_merge.comp",
+                      strata = "lib/strata.glsl";
+    checkMutants(
+        measureForward,
+        {{"instances not compared", claim, "seen.x != sampled.x", "seen.x == 0u"},
+         {"depths not compared", claim, "abs(seenDepth - depth) <= kDepthTolerance * depth",
+          "true"},
+         {"a sample carried on for a second time", claim, "!= (previousFrame & kFrameMask)",
+          "> kFrameMask"},
+         {"another order of keys", claim, "claimKey(s))", "claimKey(s) ^ 0u - claimKey(s))"},
+         {"keys that are not mixed", strata, "mixBits(uint(s.y * frame.strata.x + s.x) ^",
+          "(uint(s.y * frame.strata.x + s.x) ^"},
+         {"the candidate of another frame", claim, "candidatePixel(s, previousFrame)",
+          "candidatePixel(s, frame.frame)"},
+         {"pixels of a stratum in columns", strata, "number % uint(size.x), number / uint(size.x)",
+          "number / uint(size.y), number % uint(size.y)"},
+         {"partial strata taken for whole ones", strata,
+          "min(ivec2(kStratumSize), frame.size - s * int(kStratumSize))", "ivec2(kStratumSize)"},
+         {"the old luminance of the landing pixel", merge, "fetch(previousRaw, source).a",
+          "fetch(previousRaw, q).a"},
+         {"this frame's seed", merge, "fetch(previousSeeds, source).x",
+          "fetch(previousSeeds, q).x"},
+         {"place without the 1", merge, "1u + uint(inStratum.x)", "uint(inStratum.x)"},
+         {"run without a seed", strata, "inFrame, frame.seed)", "inFrame, 0u)"}});
+}
+
+TEST_CASE("errors planted in the lighting do not pass") {
+    const std::string file = "lighting/lighting.comp", lights = "lib/lights.glsl",
+                      random = "lib/random.glsl";
+    checkMutants(
+        measureLighting,
+        {{"cosine at the surface dropped", file, "max(dot(normal, direction), 0.0)", "1.0"},
+         {"cosine of the flat normal", file, "max(dot(normal, direction), 0.0)",
+          "max(dot(geometricNormal, direction), 0.0)"},
+         {"cosine at the lamp dropped", file, "-dot(direction, light.areaNormal)",
+          "length(light.areaNormal)"},
+         {"one-sided lamps only", file, "light.doubleSided ? abs(facing) :", ""},
+         {"distance not squared", file, "max(distanceSquared, 1e-20)", "distance"},
+         {"a whole parallelogram's area", file, "cosine * 0.5 * facing", "cosine * facing"},
+         {"pi forgotten", file, "(kPi * max", "(max"},
+         {"probability forgotten", file, " * light.probability)", ")"},
+         {"no shadows", file, "matters ? distance * kShadowEnd : -1.0", "-1.0"},
+         {"shadows of what is behind the lamp", file, "distance * kShadowEnd", "1e9"},
+         {"the two numbers on the lamp exchanged", file,
+          "randomNumber(seed, kDimensionLightU),\n                  "
+          "randomNumber(seed, kDimensionLightV)",
+          "randomNumber(seed, kDimensionLightV),\n                  "
+          "randomNumber(seed, kDimensionLightU)"},
+         {"points crowded at a corner", lights, "root = sqrt(u.y)", "root = u.y"},
+         {"every lamp as bright as it is made", lights,
+          "uintBitsToFloat(emitted).rgb * uintBitsToFloat(fetchBuffer(lightScales, "
+          "int(edge2.w))).rgb",
+          "uintBitsToFloat(emitted).rgb * (1.0 + 1e-30 * "
+          "uintBitsToFloat(fetchBuffer(lightScales, int(edge2.w))).rgb)"},
+         {"a lamp passed over", lights, "low = middle + 1", "low = middle + 2"},
+         {"uniform instead of cosine-weighted", file,
+          "radius = sqrt(randomNumber(seed, kDimensionAoU))",
+          "radius = randomNumber(seed, kDimensionAoU)"},
+         {"ambient rays without an end", file, "above ? frame.aoRadius : -1.0",
+          "above ? 1e9 : -1.0"},
+         {"tangent that does not turn", file, "vec3 world = vec3(",
+          "vec3 world = t; world += 0.0 * vec3("},
+         {"origin on the surface's other side", file, "position + geometricNormal *",
+          "position - geometricNormal *"},
+         {"one tile for all runs", random, "hash2(frame.seed, dimension)", "hash2(0u, dimension)"},
+         {"tile not shifted", random, "+ uvec2(shift, shift >> kTileBits)", ""},
+         {"base of the Halton sequence", random, "radicalInverse(index, 7.0, 7)",
+          "radicalInverse(index, 5.0, 8)"}});
+}
+
+TEST_CASE("errors planted in composite and tone map do not pass") {
+    checkMutants(measurePicture,
+                 {{"albedo forgotten", "post/composite.comp", "fetch(albedo, p).rgb *",
+                   "(1.0 + 1e-30 * fetch(albedo, p).rgb) *"},
+                  {"emission under the albedo", "post/composite.comp",
+                   "fetch(signal, p).rgb + fetch(emission, p).rgb",
+                   "(fetch(signal, p).rgb + fetch(emission, p).rgb)"},
+                  {"black background", "post/composite.comp", "radiance = frame.ambient",
+                   "radiance = vec3(0.0)"},
+                  {"another curve", "post/tonemap.comp", "2.43", "2.34"},
+                  {"plain gamma", "post/tonemap.comp",
+                   "1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055", "pow(linear, vec3(1.0 / 2.2))"},
+                  {"no straight part of the curve", "post/tonemap.comp", "0.0031308", "-1.0"}});
+}

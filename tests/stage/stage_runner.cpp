@@ -1,0 +1,167 @@
+#include "tests/stage/stage_runner.h"
+
+#include <array>
+
+#include "renderer/gl/buffer.h"
+#include "renderer/passes/atrous_pass.h"
+#include "renderer/passes/gradient_pass.h"
+#include "renderer/passes/temporal_pass.h"
+#include "renderer/passes/variance_pass.h"
+#include "shared/bindings.h"
+#include "shared/frame.h"
+
+namespace afterglow::test {
+namespace {
+
+PixelFormat formatOf(float) {
+    return PixelFormat::R32F;
+}
+PixelFormat formatOf(glm::vec2) {
+    return PixelFormat::RG32F;
+}
+PixelFormat formatOf(glm::vec4) {
+    return PixelFormat::RGBA32F;
+}
+PixelFormat formatOf(glm::uvec4) {
+    return PixelFormat::RGBA32UI;
+}
+
+template <class Pixel>
+GpuTexture upload(std::string_view label, const Image<Pixel>& image) {
+    GpuTexture texture(label, formatOf(Pixel{}), image.size());
+    texture.write(image);
+    return texture;
+}
+
+template <class Pixel>
+GpuTexture output(std::string_view label, glm::ivec2 size) {
+    return upload(label, Image<Pixel>(size, Pixel(-1234.5f)));
+}
+
+/// The frame block, bound for as long as it lives.
+class FrameBlock {
+public:
+    FrameBlock(const RandomFrame& frame, bool historyValid)
+        : buffer_("frame", sizeof(gpu::FrameUniforms)) {
+        gpu::FrameUniforms uniforms{};
+        uniforms.size = frame.size;
+        uniforms.strata = frame.strata;
+        uniforms.frame = 7;
+        uniforms.historyValid = historyValid ? 1 : 0;
+        uniforms.signalClamp = 64.0f;
+        uniforms.extent = 40.0f;
+        buffer_.write(std::array{uniforms});
+        glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, buffer_.id());
+    }
+    FrameBlock(const FrameBlock&) = delete;
+    FrameBlock& operator=(const FrameBlock&) = delete;
+    ~FrameBlock() { glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, 0); }
+
+private:
+    GpuBuffer buffer_;
+};
+
+} // namespace
+
+Image<glm::vec4> runAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
+                           const gpu::EdgeStopping& params) {
+    const FrameBlock block(frame, true);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    const GpuTexture signal = upload("signal", frame.signal);
+    const GpuTexture guides = upload("guides", frame.guides);
+    const GpuTexture slope = upload("slope", frame.slope);
+    GpuTexture filtered = output<glm::vec4>("filtered", frame.size);
+    AtrousPass(shaders, kernel).run(context, {signal, guides, slope}, {filtered}, params);
+    return filtered.read<glm::vec4>();
+}
+
+TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, bool historyValid,
+                           const gpu::TemporalParams& params) {
+    const FrameBlock block(frame, historyValid);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    const GpuTexture raw = upload("raw", frame.raw);
+    const GpuTexture visibility = upload("visibility", frame.visibility);
+    const GpuTexture previousVisibility = upload("previous visibility", frame.previousVisibility);
+    const GpuTexture guides = upload("guides", frame.guides);
+    const GpuTexture previousGuides = upload("previous guides", frame.previousGuides);
+    const GpuTexture slope = upload("slope", frame.slope);
+    const GpuTexture motion = upload("motion", frame.motion);
+    const GpuTexture previousColor = upload("previous color", frame.previousColor);
+    const GpuTexture previousMoments = upload("previous moments", frame.previousMoments);
+    const GpuTexture lambda = upload("lambda", frame.lambda);
+    GpuTexture accumulated = output<glm::vec4>("accumulated", frame.size);
+    GpuTexture moments = output<glm::vec4>("moments", frame.size);
+    GpuTexture control = output<glm::vec4>("control", frame.size);
+    TemporalPass(shaders).run(context,
+                              {.raw = raw,
+                               .visibility = visibility,
+                               .previousVisibility = previousVisibility,
+                               .guides = guides,
+                               .previousGuides = previousGuides,
+                               .slope = slope,
+                               .motion = motion,
+                               .previousColor = previousColor,
+                               .previousMoments = previousMoments,
+                               .lambda = lambda},
+                              {accumulated, moments, control}, params);
+    return {accumulated.read<glm::vec4>(), moments.read<glm::vec4>(), control.read<glm::vec4>()};
+}
+
+Image<glm::vec4> runVariance(ShaderLibrary& shaders, const RandomFrame& frame,
+                             const gpu::VarianceParams& params) {
+    const FrameBlock block(frame, true);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    const GpuTexture accumulated = upload("accumulated", frame.accumulated);
+    const GpuTexture moments = upload("moments", frame.moments);
+    const GpuTexture guides = upload("guides", frame.guides);
+    const GpuTexture slope = upload("slope", frame.slope);
+    GpuTexture filtered = output<glm::vec4>("filtered", frame.size);
+    VariancePass(shaders).run(context, {accumulated, moments, guides, slope}, {filtered}, params);
+    return filtered.read<glm::vec4>();
+}
+
+GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame) {
+    const FrameBlock block(frame, true);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    const GpuTexture raw = upload("raw", frame.raw);
+    const GpuTexture samples = upload("samples", frame.samples);
+    const GpuTexture guides = upload("guides", frame.guides);
+    const GpuTexture slope = upload("slope", frame.slope);
+    GpuTexture gradient = output<glm::vec4>("gradient", frame.strata);
+    GpuTexture strataGuides = output<glm::vec4>("strata guides", frame.strata);
+    GpuTexture strataSlope = output<glm::vec2>("strata slope", frame.strata);
+    GradientPass(shaders).run(context, {raw, samples, guides, slope},
+                              {gradient, strataGuides, strataSlope});
+    return {gradient.read<glm::vec4>(), strataGuides.read<glm::vec4>(),
+            strataSlope.read<glm::vec2>()};
+}
+
+Image<glm::vec4> runGradientAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
+                                   const gpu::EdgeStopping& params) {
+    const FrameBlock block(frame, true);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    const GpuTexture gradient = upload("gradient", frame.gradient);
+    const GpuTexture guides = upload("strata guides", frame.strataGuides);
+    const GpuTexture slope = upload("strata slope", frame.strataSlope);
+    GpuTexture filtered = output<glm::vec4>("filtered gradient", frame.strata);
+    GradientAtrousPass(shaders, kernel).run(context, {gradient, guides, slope}, {filtered}, params);
+    return filtered.read<glm::vec4>();
+}
+
+Image<float> runLambda(ShaderLibrary& shaders, const RandomFrame& frame,
+                       const gpu::GradientParams& params) {
+    const FrameBlock block(frame, true);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    const GpuTexture gradient = upload("gradient", frame.gradient);
+    GpuTexture lambda = output<float>("lambda", frame.strata);
+    LambdaPass(shaders).run(context, {gradient}, {lambda}, params);
+    return lambda.read<float>();
+}
+
+} // namespace afterglow::test

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "renderer/gl/shader_library.h"
+#include "renderer/passes/frame_context.h"
+#include "shared/denoise_params.h"
+#include "tests/support/random_frame.h"
+
+namespace afterglow::test {
+
+// Each function constructs the real pass, fills its inputs from the frame, runs it and reads back.
+// Outputs hold garbage before, so a pixel that is not written shows.
+
+/// Sizes at which whole workgroups, partial ones, partial strata and single pixels occur.
+constexpr glm::ivec2 kStageSizes[] = {{61, 37}, {1, 1}, {2, 5}, {8, 8}, {16, 9}, {130, 3}};
+
+Image<glm::vec4> runAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
+                           const gpu::EdgeStopping& params);
+
+struct TemporalImages {
+    Image<glm::vec4> accumulated, moments, control;
+};
+TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, bool historyValid,
+                           const gpu::TemporalParams& params);
+
+Image<glm::vec4> runVariance(ShaderLibrary& shaders, const RandomFrame& frame,
+                             const gpu::VarianceParams& params);
+
+struct GradientImages {
+    Image<glm::vec4> gradient, guides;
+    Image<glm::vec2> slope;
+};
+GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame);
+
+Image<glm::vec4> runGradientAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
+                                   const gpu::EdgeStopping& params);
+
+Image<float> runLambda(ShaderLibrary& shaders, const RandomFrame& frame,
+                       const gpu::GradientParams& params);
+
+} // namespace afterglow::test

@@ -1,0 +1,120 @@
+#include <doctest/doctest.h>
+
+#include "tests/reference/temporal.h"
+#include "tests/stage/stage_runner.h"
+#include "tests/support/compare.h"
+#include "tests/support/gl_fixture.h"
+
+using namespace afterglow;
+using namespace afterglow::test;
+
+namespace {
+
+// llvmpipe: 4e-6, in the history length, a quotient of small differences; the rest is for pow() and
+// divisions on GPUs.
+constexpr Tolerance kTolerance{.max = 2e-5, .relative = 2e-5};
+
+const gpu::TemporalParams kParams{.alpha = 0.1f,
+                                  .alphaMoments = 0.2f,
+                                  .maxHistory = 64.0f,
+                                  .depthTolerance = 2.0f,
+                                  .normalTolerance = 0.9f,
+                                  .lambdaFetch = gpu::kLambdaBilinear,
+                                  .historyLaw = gpu::kHistoryEffective,
+                                  .useLambda = 1};
+
+reference::TemporalResult expect(const RandomFrame& frame, bool historyValid,
+                                 const gpu::TemporalParams& params) {
+    return reference::temporal({frame.raw, frame.visibility, frame.previousVisibility, frame.guides,
+                                frame.previousGuides, frame.slope, frame.motion,
+                                frame.previousColor, frame.previousMoments, frame.lambda,
+                                historyValid},
+                               params);
+}
+
+/// The largest difference in color and moments (first) and in control (second).
+glm::dvec2 checkTemporal(const RandomFrame& frame, bool historyValid,
+                         const gpu::TemporalParams& params) {
+    const auto images = runTemporal(testShaders(), frame, historyValid, params);
+    const auto expected = expect(frame, historyValid, params);
+    CHECK(expected.margin > 1e-4); // else a decision may fall either way
+    CHECK_CLOSE(images.accumulated, expected.accumulated, kTolerance);
+    CHECK_CLOSE(images.moments, expected.moments, kTolerance);
+    CHECK_CLOSE(images.control, expected.control, kTolerance);
+    return {std::max(compare(images.accumulated, expected.accumulated, kTolerance).largest,
+                     compare(images.moments, expected.moments, kTolerance).largest),
+            compare(images.control, expected.control, kTolerance).largest};
+}
+
+} // namespace
+
+TEST_CASE("temporal accumulation follows the papers, for every size, history law and fetch") {
+    glm::dvec2 largest(0.0);
+    for (const glm::ivec2 size : kStageSizes)
+        for (const std::uint32_t seed : {7u, 8u, 9u})
+            for (const int law : {gpu::kHistoryEffective, gpu::kHistoryFrames, gpu::kHistoryPower})
+                for (const int fetch :
+                     {gpu::kLambdaNearest, gpu::kLambdaBilinear, gpu::kLambdaMax}) {
+                    CAPTURE(size.x);
+                    CAPTURE(size.y);
+                    CAPTURE(seed);
+                    CAPTURE(law);
+                    CAPTURE(fetch);
+                    gpu::TemporalParams params = kParams;
+                    params.historyLaw = law;
+                    params.lambdaFetch = fetch;
+                    largest =
+                        glm::max(largest, checkTemporal(RandomFrame(size, seed), true, params));
+                }
+    MESSAGE("largest difference: ", largest.x, ", in control ", largest.y);
+}
+
+TEST_CASE("temporal accumulation follows the papers, for tight and loose parameters") {
+    glm::dvec2 largest(0.0);
+    const RandomFrame frame({61, 37}, 11);
+    for (const float alpha : {0.0f, 0.3f, 1.0f})
+        for (const float maxHistory : {1.0f, 5.0f, 256.0f})
+            for (const float depthTolerance : {1.0f, 4.0f})
+                for (const float normalTolerance : {0.3f, 0.95f}) {
+                    CAPTURE(alpha);
+                    CAPTURE(maxHistory);
+                    CAPTURE(depthTolerance);
+                    CAPTURE(normalTolerance);
+                    gpu::TemporalParams params = kParams;
+                    params.alpha = alpha;
+                    params.alphaMoments = 1.0f - alpha;
+                    params.maxHistory = maxHistory;
+                    params.depthTolerance = depthTolerance;
+                    params.normalTolerance = normalTolerance;
+                    largest = glm::max(largest, checkTemporal(frame, true, params));
+                }
+    MESSAGE("largest difference: ", largest.x, ", in control ", largest.y);
+}
+
+TEST_CASE("without lambda only alpha counts, without a previous frame only the new one") {
+    glm::dvec2 largest(0.0);
+    for (const bool historyValid : {false, true})
+        for (const int useLambda : {0, 1}) {
+            CAPTURE(historyValid);
+            CAPTURE(useLambda);
+            gpu::TemporalParams params = kParams;
+            params.useLambda = useLambda;
+            largest =
+                glm::max(largest, checkTemporal(RandomFrame({61, 37}, 12), historyValid, params));
+        }
+    MESSAGE("largest difference: ", largest.x, ", in control ", largest.y);
+}
+
+TEST_CASE("the reason for losing history is told exactly") {
+    for (const std::uint32_t seed : {13u, 14u}) {
+        const RandomFrame frame({61, 37}, seed);
+        const auto images = runTemporal(testShaders(), frame, true, kParams);
+        const auto expected = expect(frame, true, kParams);
+        int lost = 0;
+        for (std::size_t i = 0; i < frame.guides.pixels().size(); ++i) {
+            CHECK(double(images.control.pixels()[i].w) == expected.control.pixels()[i].w);
+            lost += expected.control.pixels()[i].w != gpu::kHistoryKept;
+        }
+        CHECK(lost > 50);
+    }
+}

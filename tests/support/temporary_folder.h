@@ -1,0 +1,46 @@
+#pragma once
+
+#include "renderer/base/error.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace afterglow {
+
+/// A new folder of one's own, gone with all that is in it at the end of the scope.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "afterglow-XXXXXX").string();
+        if (!::mkdtemp(name.data())) {
+            throw Error("no temporary folder can be made: " + name);
+        }
+        path_ = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// What an exception of one kind says when f is called; empty if it throws none of that kind.
+template <class Exception, class F>
+std::string messageOf(F f) {
+    try {
+        f();
+    } catch (const Exception& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace afterglow
