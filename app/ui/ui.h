@@ -22,7 +22,6 @@ struct UiFrame {
     const GlInfo& gl;
     const PassTimings& timings;
     Layout layout;           ///< framebuffer pixels
-    Rect picture;            ///< where it is in the window; framebuffer pixels
     glm::ivec2 imageSize{0}; ///< as rendered
     FrameStats stats;        ///< of a recent frame
     double raysPerSecond = 0.0;

@@ -230,7 +230,6 @@ void Viewer::drawWindow(glm::ivec2 framebuffer, const Layout& layout) {
                       .gl = gl_,
                       .timings = timings_,
                       .layout = layout,
-                      .picture = picture,
                       .imageSize = texture ? texture->size() : glm::ivec2(0),
                       .stats = stats_,
                       .raysPerSecond = raysPerSecond_,

@@ -1,5 +1,6 @@
 // Colors for numbers. app/workbench/color_maps.cpp draws the same scales as legends.
 
+#include "lib/color.glsl"
 #include "shared/debug_view_params.h"
 
 // Ottosson 2020, "A perceptual color space for image processing": OKLab to linear Rec. 709.
@@ -47,8 +48,6 @@ vec3 numberColor(uint n) {
     return fromPolar(0.62 + 0.07 * float(n % 3u), 0.10, mod(float(n % 360u) * 137.50776, 360.0));
 }
 
-// IEC 61966-2-1.
 vec3 toDisplay(vec3 color) {
-    vec3 c = clamp(color, 0.0, 1.0);
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+    return encodeSrgb(clamp(color, 0.0, 1.0));
 }

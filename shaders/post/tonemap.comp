@@ -3,6 +3,7 @@
 // Linear radiance to the display: exposure, a curve with a shoulder, sRGB encoding.
 // The curve is the rational fit of Narkowicz 2015, "ACES Filmic Tone Mapping Curve", per channel.
 
+#include "lib/color.glsl"
 #include "lib/fetch.glsl"
 #include "lib/frame.glsl"
 #include "shared/post_params.h"
@@ -17,12 +18,6 @@ writeonly uniform image2D display;
 
 vec3 filmic(vec3 x) {
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-}
-
-// IEC 61966-2-1.
-vec3 encodeSrgb(vec3 linear) {
-    return mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055,
-               greaterThan(linear, vec3(0.0031308)));
 }
 
 void main() {

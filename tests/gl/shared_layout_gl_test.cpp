@@ -1,3 +1,4 @@
+#include "shared/debug_view_params.h"
 #include "shared/denoise_params.h"
 #include "shared/frame.h"
 #include "shared/post_params.h"
@@ -54,6 +55,9 @@ const std::vector<SharedStruct>& sharedStructs() {
                       MEMBER(unused1), MEMBER(unused2)),
         SHARED_STRUCT(TonemapParams, "shared/post_params.h", MEMBER(exposure), MEMBER(unused0),
                       MEMBER(unused1), MEMBER(unused2)),
+        SHARED_STRUCT(DebugViewParams, "shared/debug_view_params.h", MEMBER(map), MEMBER(channel),
+                      MEMBER(pixelsPerTexel), MEMBER(isFloatBits), MEMBER(low), MEMBER(high),
+                      MEMBER(unused0), MEMBER(unused1)),
         SHARED_STRUCT(FrameUniforms, "shared/frame.h", MEMBER(clipFromWorld),
                       MEMBER(previousClipFromWorld), MEMBER(viewFromWorld),
                       MEMBER(previousViewFromWorld), MEMBER(cameraPosition), MEMBER(tanHalfFov),
