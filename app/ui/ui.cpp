@@ -3,6 +3,7 @@
 #include "app/ui/panels.h"
 #include "app/window/window.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <backends/imgui_impl_glfw.h>
@@ -89,7 +90,9 @@ void Ui::draw(ViewState& state, const UiFrame& frame) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     // Some systems count the window in units of several pixels.
-    const float pixelsPerUnit = std::max(ImGui::GetIO().DisplayFramebufferScale.x, 1.0f);
+    // Window and framebuffer are asked for one after the other: in the middle of a resize their ratio
+    // may be anything. No screen has more than four pixels a unit.
+    const float pixelsPerUnit = std::clamp(ImGui::GetIO().DisplayFramebufferScale.x, 1.0f, 4.0f);
     ImGui::GetIO().FontGlobalScale = 1.0f / pixelsPerUnit;
     applyTheme(contentScale_ / pixelsPerUnit);
     ImGui::NewFrame();

@@ -206,7 +206,7 @@ const GpuTexture* Viewer::shownTexture() {
     if (debugPicture_.size() != picture_->size())
         debugPicture_ = GpuTexture("debug view", PixelFormat::RGBA8, picture_->size());
     const ImageDisplay& display = state_.displays[*shown];
-    const ImageSource source = imageSource(renderer_, display.name);
+    const AovSource source = sourceOf(renderer_, aovByName(display.name));
     FrameContext context{renderer_.timer()};
     debugView_.run(context, source.texture, debugPicture_, debugViewParams(display, source));
     return &debugPicture_;

@@ -33,8 +33,11 @@ constexpr ImageDisplay kDisplays[] = {
     {"alpha", kMapScalar, 0.0f, 1.0f, ""},
     {"reason", kMapNumber, 0.0f, 5.0f, ""},
     {"lambda", kMapScalar, 0.0f, 1.0f, ""},
-    {"lambda-strata", kMapScalar, 0.0f, 1.0f, ""},
+    {"lambda_strata", kMapScalar, 0.0f, 1.0f, ""},
     {"gradient", kMapSigned, -0.5f, 0.5f, kRadiance},
+    {"gradient_max", kMapScalar, 0.0f, 1.0f, kRadiance},
+    {"gradient_sample", kMapSigned, -0.5f, 0.5f, kRadiance},
+    {"gradient_sample_max", kMapScalar, 0.0f, 1.0f, kRadiance},
     {"samples", kMapNumber, 0.0f, 9.0f, ""},
 };
 
@@ -57,55 +60,7 @@ std::vector<ImageDisplay> imageDisplays(float extent) {
     return displays;
 }
 
-ImageSource imageSource(const Renderer& renderer, std::string_view aov) {
-    const RenderTargets& t = renderer.targets();
-    const auto is = [aov](std::string_view name) { return aov == name; };
-    if (is("color"))
-        return {t.composed};
-    if (is("filtered"))
-        return {renderer.filteredSignal()};
-    if (is("raw"))
-        return {t.raw.current()};
-    if (is("accumulated"))
-        return {t.accumulated};
-    if (is("variance"))
-        return {renderer.filteredSignal(), 3};
-    if (is("albedo"))
-        return {t.albedo};
-    if (is("emission"))
-        return {t.emission};
-    if (is("normal"))
-        return {t.guides.current()};
-    if (is("depth"))
-        return {t.guides.current(), 3};
-    if (is("position"))
-        return {.texture = t.surface, .isFloatBits = true};
-    if (is("slope"))
-        return {t.slope};
-    if (is("motion"))
-        return {t.motion};
-    if (is("instance"))
-        return {t.visibility.current()};
-    if (is("moments"))
-        return {t.moments.current()};
-    if (is("history"))
-        return {t.moments.current(), 2};
-    if (is("alpha"))
-        return {t.control, 1};
-    if (is("reason"))
-        return {t.control, 3};
-    if (is("lambda"))
-        return {t.control};
-    if (is("lambda-strata"))
-        return {t.lambda};
-    if (is("gradient"))
-        return {t.gradientSamples};
-    if (is("samples"))
-        return {t.samples, 1};
-    throw std::logic_error("no texture known for the image " + std::string(aov));
-}
-
-gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const ImageSource& source) {
+gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const AovSource& source) {
     return {.map = display.map,
             .channel = source.channel,
             .pixelsPerTexel = aovByName(display.name).perStratum ? int(kStratumSize) : 1,

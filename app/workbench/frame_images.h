@@ -24,16 +24,7 @@ struct ImageDisplay {
 /// metres.
 std::vector<ImageDisplay> imageDisplays(float extent);
 
-/// Where the texture of an AOV holds its values.
-struct ImageSource {
-    const GpuTexture& texture;
-    int channel = 0;
-    bool isFloatBits = false;
-};
-/// In the last frame that was rendered. std::logic_error for a name that aovs() does not have.
-ImageSource imageSource(const Renderer& renderer, std::string_view aov);
-
-gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const ImageSource& source);
+gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const AovSource& source);
 
 /// Low and high such that all but the outermost hundredth of the values are told apart; nothing is
 /// changed if there are no finite values. `values` as readAov() gives them.

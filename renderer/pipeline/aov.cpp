@@ -1,37 +1,16 @@
 #include "renderer/pipeline/aov.h"
 
-#include "renderer/base/error.h"
+#include "renderer/base/names.h"
 
 #include <array>
+#include <stdexcept>
+#include <vector>
 
 namespace afterglow {
 
 namespace {
 
-using Pixels = Image<glm::vec4>;
-
-template <class Pixel, class Convert>
-Pixels convert(const Image<Pixel>& from, Convert&& pixel) {
-    Pixels to(from.size());
-    for (std::size_t i = 0; i < to.pixels().size(); ++i)
-        to.pixels()[i] = pixel(from.pixels()[i]);
-    return to;
-}
-
-Pixels channelsOf(const GpuTexture& texture, int first, int count) {
-    return convert(texture.read<glm::vec4>(), [=](const glm::vec4& p) {
-        glm::vec4 kept(0.0f);
-        for (int i = 0; i < count; ++i)
-            kept[i] = p[first + i];
-        return kept;
-    });
-}
-
-struct Row {
-    AovInfo info;
-    Pixels (*read)(const Renderer&);
-    bool (*madeBy)(const DenoisePlan&);
-};
+using MadeBy = bool(const DenoisePlan&);
 
 bool always(const DenoisePlan&) {
     return true;
@@ -42,152 +21,86 @@ bool whereAccumulated(const DenoisePlan& plan) {
 bool whereFiltered(const DenoisePlan& plan) {
     return plan.atrousIterations > 0;
 }
-bool whereAdaptive(const DenoisePlan& plan) {
-    return plan.useLambda;
-}
-bool whereCarried(const DenoisePlan& plan) {
-    return plan.carrySamples;
-}
 // With nothing fed back from the spatial filter the blend is the history itself.
 bool whereBlendIsKept(const DenoisePlan& plan) {
     return plan.feedbackIteration > 0;
 }
+bool whereAdaptive(const DenoisePlan& plan) {
+    return plan.useLambda;
+}
+bool whereReconstructed(const DenoisePlan& plan) {
+    return plan.useLambda && plan.gradientIterations > 0;
+}
+bool whereCarried(const DenoisePlan& plan) {
+    return plan.carrySamples;
+}
 
-const std::array kRows{
-    Row{{.name = "color",
-         .meaning = "linear radiance: the filtered signal times albedo, plus emission",
-         .channels = "RGB"},
-        [](const Renderer& r) { return channelsOf(r.targets().composed, 0, 3); },
-        always},
-    Row{{.name = "filtered",
-         .meaning = "the signal after the filter, without albedo, radiance",
-         .channels = "RGB"},
-        [](const Renderer& r) { return channelsOf(r.filteredSignal(), 0, 3); },
-        always},
-    Row{{.name = "raw",
-         .meaning = "the signal as traced, one sample a pixel, without albedo, radiance",
-         .channels = "RGB"},
-        [](const Renderer& r) { return channelsOf(r.targets().raw.current(), 0, 3); },
-        always},
-    Row{{.name = "accumulated",
-         .meaning = "the signal after temporal and before spatial filtering, radiance",
-         .channels = "RGB",
-         .needsHistory = true},
-        [](const Renderer& r) { return channelsOf(r.targets().accumulated, 0, 3); },
-        whereBlendIsKept},
-    Row{{.name = "variance",
-         .meaning = "variance of the filtered signal's luminance, as estimated, radiance squared",
-         .channels = "Y",
-         .needsHistory = true},
-        [](const Renderer& r) { return channelsOf(r.filteredSignal(), 3, 1); },
-        whereFiltered},
-    Row{{.name = "albedo",
-         .meaning = "diffuse reflectance of the surface, [0, 1]",
-         .channels = "RGB"},
-        [](const Renderer& r) { return channelsOf(r.targets().albedo, 0, 3); },
-        always},
-    Row{{.name = "emission",
-         .meaning = "what the surface itself emits, radiance",
-         .channels = "RGB"},
-        [](const Renderer& r) { return channelsOf(r.targets().emission, 0, 3); },
-        always},
-    Row{{.name = "normal", .meaning = "world-space shading normal, unit length", .channels = "XYZ"},
-        [](const Renderer& r) { return channelsOf(r.targets().guides.current(), 0, 3); },
-        always},
-    Row{{.name = "depth",
-         .meaning = "distance along the view axis, metres; 0 is background",
-         .channels = "Y"},
-        [](const Renderer& r) { return channelsOf(r.targets().guides.current(), 3, 1); },
-        always},
-    Row{{.name = "position", .meaning = "of the surface in the world, metres", .channels = "XYZ"},
-        [](const Renderer& r) {
-            return convert(r.targets().surface.read<glm::uvec4>(), [](const glm::uvec4& p) {
-                return glm::vec4(glm::uintBitsToFloat(glm::uvec3(p)), 0.0f);
-            });
-        },
-        always},
-    Row{{.name = "slope",
-         .meaning = "change of depth along x and y, metres per pixel",
-         .channels = "XY"},
-        [](const Renderer& r) {
-            return convert(r.targets().slope.read<glm::vec2>(),
-                           [](const glm::vec2& p) { return glm::vec4(p, 0.0f, 0.0f); });
-        },
-        always},
-    Row{{.name = "motion",
-         .meaning = "from the pixel to where its surface was a frame ago, pixels",
-         .channels = "XY"},
-        [](const Renderer& r) { return channelsOf(r.targets().motion, 0, 2); },
-        always},
-    Row{{.name = "instance",
-         .meaning = "number of the instance from 1; 0 is background",
-         .channels = "Y"},
-        [](const Renderer& r) {
-            return convert(r.targets().visibility.current().read<glm::uvec4>(),
-                           [](const glm::uvec4& p) { return glm::vec4(float(p.x), 0, 0, 0); });
-        },
-        always},
-    Row{{.name = "moments",
-         .meaning = "running means of the raw luminance and of its square",
-         .channels = "XY",
-         .needsHistory = true},
-        [](const Renderer& r) { return channelsOf(r.targets().moments.current(), 0, 2); },
-        whereAccumulated},
-    Row{{.name = "history",
-         .meaning = "effective length of the history, frames",
-         .channels = "Y",
-         .needsHistory = true},
-        [](const Renderer& r) { return channelsOf(r.targets().moments.current(), 2, 1); },
-        whereAccumulated},
-    Row{{.name = "alpha",
-         .meaning = "weight of the newest frame in the blend, [0, 1]",
-         .channels = "Y",
-         .needsHistory = true},
-        [](const Renderer& r) { return channelsOf(r.targets().control, 1, 1); },
-        whereAccumulated},
-    Row{{.name = "reason",
-         .meaning = "why there is no history: 0 there is, 1 first frame, 2 off screen, 3 another "
-                    "instance, 4 depth, 5 normal",
-         .channels = "Y",
-         .needsHistory = true},
-        [](const Renderer& r) { return channelsOf(r.targets().control, 3, 1); },
-        whereAccumulated},
-    Row{{.name = "lambda",
-         .meaning = "relative temporal change as fetched at the pixel, [0, 1]",
-         .channels = "Y",
-         .needsGradient = true,
-         .needsHistory = true},
-        [](const Renderer& r) { return channelsOf(r.targets().control, 0, 1); },
-        whereAdaptive},
-    Row{{.name = "lambda-strata",
-         .meaning = "relative temporal change per stratum of 3x3 pixels, [0, 1]",
-         .channels = "Y",
-         .perStratum = true,
-         .needsGradient = true},
-        [](const Renderer& r) {
-            return convert(r.targets().lambda.read<float>(),
-                           [](float p) { return glm::vec4(p, 0.0f, 0.0f, 0.0f); });
-        },
-        whereAdaptive},
-    Row{{.name = "gradient",
-         .meaning = "change of luminance at each stratum's sample and the larger of the two "
-                    "luminances, as measured, radiance",
-         .channels = "XY",
-         .perStratum = true,
-         .needsGradient = true},
-        [](const Renderer& r) { return channelsOf(r.targets().gradientSamples, 0, 2); },
-        whereAdaptive},
-    Row{{.name = "samples",
-         .meaning = "where in the stratum its gradient sample landed, 1 + x + 3y; 0 is none",
-         .channels = "Y",
-         .perStratum = true,
-         .needsGradient = true},
-        [](const Renderer& r) {
-            return convert(r.targets().samples.read<glm::uvec4>(),
-                           [](const glm::uvec4& p) { return glm::vec4(float(p.y), 0, 0, 0); });
-        },
-        whereCarried},
+struct Row {
+    AovInfo info;
+    AovSource (*source)(const Renderer&);
+    MadeBy* madeBy;
 };
+
+using R = const Renderer&;
+constexpr bool kPerStratum = true;
+
+// clang-format off
+const std::array kRows = std::to_array<Row>({
+    {{"color", "linear radiance: the filtered signal times albedo, plus emission", "RGB"},
+     [](R r) { return AovSource{r.targets().composed}; }, always},
+    {{"filtered", "the signal after the filter, without albedo, radiance", "RGB"},
+     [](R r) { return AovSource{r.filteredSignal()}; }, always},
+    {{"raw", "the signal as traced, one sample a pixel, without albedo, radiance", "RGB"},
+     [](R r) { return AovSource{r.targets().raw.current()}; }, always},
+    {{"accumulated", "the signal after temporal and before spatial filtering, radiance", "RGB"},
+     [](R r) { return AovSource{r.targets().accumulated}; }, whereBlendIsKept},
+    {{"variance", "variance of the filtered signal's luminance, as estimated, radiance squared", "Y"},
+     [](R r) { return AovSource{r.filteredSignal(), 3}; }, whereFiltered},
+    {{"albedo", "diffuse reflectance of the surface, [0, 1]", "RGB"},
+     [](R r) { return AovSource{r.targets().albedo}; }, always},
+    {{"emission", "what the surface itself emits, radiance", "RGB"},
+     [](R r) { return AovSource{r.targets().emission}; }, always},
+    {{"normal", "world-space shading normal, unit length", "XYZ"},
+     [](R r) { return AovSource{r.targets().guides.current()}; }, always},
+    {{"depth", "distance along the view axis, metres; 0 is background", "Y"},
+     [](R r) { return AovSource{r.targets().guides.current(), 3}; }, always},
+    {{"position", "of the surface in the world, metres", "XYZ"},
+     [](R r) { return AovSource{r.targets().surface, 0, true}; }, always},
+    {{"slope", "change of depth along x and y, metres per pixel", "XY"},
+     [](R r) { return AovSource{r.targets().slope}; }, always},
+    {{"motion", "from the pixel to where its surface was a frame ago, pixels", "XY"},
+     [](R r) { return AovSource{r.targets().motion}; }, always},
+    {{"instance", "number of the instance from 1; 0 is background", "Y"},
+     [](R r) { return AovSource{r.targets().visibility.current()}; }, always},
+    {{"moments", "running means of the raw luminance and of its square", "XY"},
+     [](R r) { return AovSource{r.targets().moments.current()}; }, whereAccumulated},
+    {{"history", "effective length of the history, frames", "Y"},
+     [](R r) { return AovSource{r.targets().moments.current(), 2}; }, whereAccumulated},
+    {{"alpha", "weight of the newest frame in the blend, [0, 1]", "Y"},
+     [](R r) { return AovSource{r.targets().control, 1}; }, whereAccumulated},
+    {{"reason", "why there is no history: 0 there is, 1 first frame, 2 off screen, 3 another "
+      "instance, 4 depth, 5 normal", "Y"},
+     [](R r) { return AovSource{r.targets().control, 3}; }, whereAccumulated},
+    {{"lambda", "relative temporal change as fetched at the pixel, [0, 1]", "Y"},
+     [](R r) { return AovSource{r.targets().control}; }, whereAdaptive},
+    {{"lambda_strata", "relative temporal change per stratum of 3x3 pixels, [0, 1]", "Y", kPerStratum},
+     [](R r) { return AovSource{r.targets().lambda}; }, whereAdaptive},
+    {{"gradient", "reconstructed change of luminance (delta) per stratum, radiance", "Y", kPerStratum},
+     [](R r) { return AovSource{r.targets().gradient[0]}; }, whereReconstructed},
+    {{"gradient_max", "reconstructed larger luminance of the two frames (Delta) per stratum, radiance",
+      "Y", kPerStratum},
+     [](R r) { return AovSource{r.targets().gradient[0], 1}; }, whereReconstructed},
+    {{"gradient_sample", "change of luminance at each stratum's sample, as measured, radiance", "Y",
+      kPerStratum},
+     [](R r) { return AovSource{r.targets().gradientSamples}; }, whereAdaptive},
+    {{"gradient_sample_max", "larger luminance of the two frames at each stratum's sample, radiance",
+      "Y", kPerStratum},
+     [](R r) { return AovSource{r.targets().gradientSamples, 1}; }, whereAdaptive},
+    {{"samples", "where in the stratum its gradient sample landed, 1 + x + 3y; 0 is none", "Y",
+      kPerStratum},
+     [](R r) { return AovSource{r.targets().samples, 1}; }, whereCarried},
+});
+// clang-format on
 
 const std::array kInfos = [] {
     std::array<AovInfo, kRows.size()> infos;
@@ -201,6 +114,25 @@ const Row& rowOf(const AovInfo& aov) {
         if (row.info.name == aov.name)
             return row;
     throw std::logic_error("no AOV named " + std::string(aov.name));
+}
+
+/// `count` channels of each pixel, from the source's first one on.
+template <class Pixel>
+Image<glm::vec4> channelsOf(const AovSource& source, int count) {
+    const Image<Pixel> from = source.texture.read<Pixel>();
+    Image<glm::vec4> to(from.size());
+    for (std::size_t i = 0; i < to.pixels().size(); ++i)
+        for (int channel = 0; channel < count; ++channel) {
+            const auto value = [&] {
+                if constexpr (std::is_arithmetic_v<Pixel>)
+                    return from.pixels()[i];
+                else
+                    return from.pixels()[i][source.channel + channel];
+            }();
+            to.pixels()[i][channel] =
+                source.isFloatBits ? glm::uintBitsToFloat(std::uint32_t(value)) : float(value);
+        }
+    return to;
 }
 
 } // namespace
@@ -223,8 +155,20 @@ bool isMadeBy(const AovInfo& aov, Filter filter, const DenoiserSettings& setting
     return rowOf(aov).madeBy(makePlan(filter, settings));
 }
 
+AovSource sourceOf(const Renderer& renderer, const AovInfo& aov) {
+    return rowOf(aov).source(renderer);
+}
+
 Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov) {
-    return rowOf(aov).read(renderer);
+    const AovSource source = sourceOf(renderer, aov);
+    const int count = int(aov.channels.size());
+    switch (source.texture.format()) {
+    case PixelFormat::RGBA32F: return channelsOf<glm::vec4>(source, count);
+    case PixelFormat::RG32F: return channelsOf<glm::vec2>(source, count);
+    case PixelFormat::R32F: return channelsOf<float>(source, count);
+    case PixelFormat::RGBA32UI: return channelsOf<glm::uvec4>(source, count);
+    default: throw std::logic_error("no AOV is kept in " + source.texture.label());
+    }
 }
 
 } // namespace afterglow

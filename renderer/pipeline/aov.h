@@ -7,15 +7,12 @@
 
 namespace afterglow {
 
-/// An arbitrary output variable: one image of the frame that can be looked at and written to a
-/// file.
+/// An arbitrary output variable: one image of the frame that can be looked at and written to a file.
 struct AovInfo {
     std::string_view name;
-    std::string_view meaning;   ///< with its unit
-    std::string_view channels;  ///< names of the channels in a file: "RGB", "Y", "XYZ", "XY"
-    bool perStratum = false;    ///< ceil(W/3) x ceil(H/3) instead of W x H
-    bool needsGradient = false; ///< made only by filters that carry gradient samples
-    bool needsHistory = false;  ///< made only by filters that accumulate
+    std::string_view meaning;  ///< with its unit
+    std::string_view channels; ///< names of the channels in a file: "RGB", "Y", "XYZ", "XY"
+    bool perStratum = false;   ///< ceil(W/3) x ceil(H/3) instead of W x H
 };
 std::span<const AovInfo> aovs();
 
@@ -24,6 +21,15 @@ const AovInfo& aovByName(std::string_view name);
 
 /// Whether the filter makes it.
 bool isMadeBy(const AovInfo& aov, Filter filter, const DenoiserSettings& settings);
+
+/// Where the frame keeps an AOV: AovInfo::channels.size() channels of a texture, from one on.
+struct AovSource {
+    const GpuTexture& texture;
+    int channel = 0;
+    bool isFloatBits = false; ///< integers that hold the bits of floats
+};
+/// In the last frame that was rendered.
+AovSource sourceOf(const Renderer& renderer, const AovInfo& aov);
 
 /// Reads it back from the last frame; unused channels are 0.
 Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov);

@@ -36,8 +36,9 @@ void Denoiser::reconstructGradient(FrameContext& frame, const DenoisePlan& plan,
     const GpuTexture* newest = &t.gradientSamples;
     for (int k = 0; k < plan.gradientIterations; ++k) {
         edges.step = 1 << k;
-        atrous.run(frame, {*newest, t.strataGuides, t.strataSlope}, {t.gradient[k % 2]}, edges);
-        newest = &t.gradient[k % 2];
+        GpuTexture& out = t.gradient[(plan.gradientIterations - 1 - k) % 2]; // the last is gradient[0]
+        atrous.run(frame, {*newest, t.strataGuides, t.strataSlope}, {out}, edges);
+        newest = &out;
     }
     lambda_.run(frame, {*newest}, {t.lambda}, settings.gradient);
 }

@@ -34,7 +34,7 @@ struct RenderTargets {
     GpuTexture owners;          ///< R32UI, strata: keys of forward projection
     GpuTexture samples;         ///< RGBA32UI, strata
     GpuTexture gradientSamples; ///< RGBA32F, strata: as measured
-    GpuTexture gradient[2];     ///< RGBA32F, strata: the reconstruction goes back and forth
+    GpuTexture gradient[2];     ///< RGBA32F, strata: reconstructed in turns; the result is the first
     GpuTexture strataGuides, strataSlope, lambda;
 
     GpuTexture accumulated, control;

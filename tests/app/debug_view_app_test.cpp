@@ -182,7 +182,7 @@ TEST_CASE("every image of the frame is shown from the texture that its file is w
     REQUIRE(displays.size() == aovs().size());
     for (const ImageDisplay& display : displays) {
         CAPTURE(display.name);
-        const ImageSource source = imageSource(renderer, display.name);
+        const AovSource source = sourceOf(renderer, aovByName(display.name));
         DebugViewParams params = debugViewParams(display, source);
         pass.run(frame, source.texture, direct, params);
         const Image<glm::vec4> values = readAov(renderer, aovByName(display.name));

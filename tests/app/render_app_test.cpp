@@ -46,7 +46,7 @@ TEST_CASE("render writes a picture a frame, the AOVs asked for, and an account o
     const TemporaryFolder folder;
     const std::string out = folder / "new/folder";
     const Run run = render(out, {"--frames", "5", "--seed", "7", "--light", "key=0.5@3", "--aov",
-                                 "color,depth,motion,normal,lambda,lambda-strata", "--every", "2"});
+                                 "color,depth,motion,normal,lambda,lambda_strata", "--every", "2"});
     checkDone(run);
     CHECK(run.out.find("5 frames") != std::string::npos);
     CHECK(run.out.find("ms a frame") != std::string::npos);
@@ -56,7 +56,7 @@ TEST_CASE("render writes a picture a frame, the AOVs asked for, and an account o
     std::vector<std::string> expected{"run.json"};
     for (const char* frame : {"0000", "0002", "0004"}) {
         expected.push_back(std::string("color_") + frame + ".png");
-        for (const char* aov : {"color", "depth", "motion", "normal", "lambda", "lambda-strata"})
+        for (const char* aov : {"color", "depth", "motion", "normal", "lambda", "lambda_strata"})
             expected.push_back(std::string(aov) + "_" + frame + ".exr");
     }
     std::ranges::sort(expected);
@@ -64,7 +64,7 @@ TEST_CASE("render writes a picture a frame, the AOVs asked for, and an account o
 
     CHECK(readPng(out + "/color_0004.png").size() == kSize);
     CHECK(readExr(out + "/color_0004.exr").size() == kSize);
-    CHECK(readExr(out + "/lambda-strata_0004.exr").size() == glm::ivec2(21, 13));
+    CHECK(readExr(out + "/lambda_strata_0004.exr").size() == glm::ivec2(21, 13));
     const auto normals = readExr(out + "/normal_0004.exr", {"X", "Y", "Z"});
     const auto depths = readExr(out + "/depth_0004.exr", {"Y"});
     int surfaces = 0;

@@ -173,7 +173,6 @@ TEST_CASE("the only light, switched off and on again, gives lambda 1 in the fram
         CAPTURE(on);
         sequence.light("key").on = on;
         sequence.next();
-        // Five iterations go back and forth between two images and end in the first.
         const Image<glm::vec4> gradient = sequence.targets().gradient[0].read<glm::vec4>();
         const Image<float> lambda = sequence.targets().lambda.read<float>();
         const Image<glm::vec4> control = sequence.targets().control.read<glm::vec4>();
