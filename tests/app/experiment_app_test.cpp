@@ -136,10 +136,10 @@ TEST_CASE("an experiment gives the same files twice, times aside") {
     CHECK(filesIn(folder / "a") == filesIn(folder / "b"));
     CHECK(measuresIn(folder / "a/metrics.csv") == measuresIn(folder / "b/metrics.csv"));
     for (const char* variant : {"fixed", "svgf", "asvgf", "reference"})
-        for (const std::string& name : filesIn(folder / "a/" + variant)) {
+        for (const std::string& name : filesIn(folder / ("a/" + std::string(variant)))) {
             const std::string path = std::string(variant) + "/" + name;
             CAPTURE(path);
-            CHECK((bytesOf(folder / "a/" + path) == bytesOf(folder / "b/" + path)));
+            CHECK((bytesOf(folder / ("a/" + path)) == bytesOf(folder / ("b/" + path))));
         }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/support/temporary_folder.h"
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -17,23 +19,6 @@ struct Run {
 /// Runs the program of the environment variable AFTERGLOW_BIN with these words and waits for it.
 Run afterglow(const std::vector<std::string>& words,
               const std::map<std::string, std::string>& environment = {});
-
-/// A folder that is gone when the object is.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    std::string operator/(std::string_view name) const { return (path_ / name).string(); }
-    /// Makes a file and returns its path.
-    std::string write(std::string_view name, std::string_view bytes) const;
-
-private:
-    std::filesystem::path path_;
-};
 
 std::string bytesOf(const std::filesystem::path& file);
 

@@ -112,7 +112,8 @@ TEST_CASE("a light that goes out is dark from its frame on, and not before") {
     checkDone(render(folder / "off", {"--frames", "4", "--filter", "none", "--signal", "shadows",
                                       "--light", "key=off@2", "--aov", "filtered"}));
     for (const char* frame : {"color_0000.png", "color_0001.png"})
-        CHECK(bytesOf(folder / "on/" + frame) == bytesOf(folder / "off/" + frame));
+        CHECK(bytesOf(folder / (std::string("on/") + frame)) ==
+              bytesOf(folder / (std::string("off/") + frame)));
     CHECK(bytesOf(folder / "on/color_0002.png") != bytesOf(folder / "off/color_0002.png"));
     const auto dark = readExr(folder / "off/filtered_0002.exr");
     for (const glm::vec4& p : dark.pixels())
@@ -126,13 +127,13 @@ TEST_CASE("the same words give the same files, with one thread or two") {
         const std::vector<std::string> words{"--frames", "4",         "--filter", filter,
                                              "--light",  "key=off@2", "--aov",    "color,filtered"};
         const std::string name = filter;
-        checkDone(render(folder / name + "-1", words, {{"LP_NUM_THREADS", "1"}}));
-        checkDone(render(folder / name + "-2", words, {{"LP_NUM_THREADS", "2"}}));
-        checkDone(render(folder / name + "-3", words, {{"LP_NUM_THREADS", "2"}}));
-        const auto one = picturesIn(folder / name + "-1");
+        checkDone(render(folder / (name + "-1"), words, {{"LP_NUM_THREADS", "1"}}));
+        checkDone(render(folder / (name + "-2"), words, {{"LP_NUM_THREADS", "2"}}));
+        checkDone(render(folder / (name + "-3"), words, {{"LP_NUM_THREADS", "2"}}));
+        const auto one = picturesIn(folder / (name + "-1"));
         CHECK(one.size() == 12);
-        CHECK((one == picturesIn(folder / name + "-2")));
-        CHECK((one == picturesIn(folder / name + "-3")));
+        CHECK((one == picturesIn(folder / (name + "-2"))));
+        CHECK((one == picturesIn(folder / (name + "-3"))));
     }
 }
 
@@ -146,7 +147,7 @@ TEST_CASE("another seed gives other noise") {
 TEST_CASE("the error of --spp N falls at least like the square root of N") {
     const TemporaryFolder folder;
     const auto reference = [&](const char* samples, const char* seed) {
-        const std::string out = folder / std::string("spp-") + samples + "-" + seed;
+        const std::string out = folder / (std::string("spp-") + samples + "-" + seed);
         checkDone(
             render(out, {"--filter", "none", "--spp", samples, "--seed", seed, "--aov", "color"}));
         CHECK(filesIn(out) ==

@@ -342,7 +342,7 @@ TEST_CASE("a fitted range leaves out the outermost hundredth, and what is no num
 }
 
 TEST_CASE("a picture never takes the name of a file that is there") {
-    const test::TemporaryFolder folder;
+    const TemporaryFolder folder;
     CHECK(freePicturePath(folder.path()).filename() == "afterglow-0001.png");
     std::ofstream(folder.path() / "afterglow-0001.png") << "mine";
     std::ofstream(folder.path() / "afterglow-0003.png") << "mine too";

@@ -2,13 +2,13 @@
 // compiler: drivers accept different mistakes.
 
 #include "tests/support/gl_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -53,10 +53,7 @@ std::vector<Variant> allVariants() {
 TEST_CASE("every shader is valid GLSL 4.50 to the reference compiler") {
     const ShaderSource source =
         ShaderSource::fromDirectory(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders");
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() /
-        ("afterglow-glsl-" + std::to_string(std::random_device()()));
-    std::filesystem::create_directories(folder);
+    const TemporaryFolder folder;
     REQUIRE_MESSAGE(std::system("glslangValidator --version > /dev/null 2>&1") == 0,
                     "glslangValidator is missing; third_party/install.sh --tests installs it");
     int checked = 0;
@@ -70,7 +67,6 @@ TEST_CASE("every shader is valid GLSL 4.50 to the reference compiler") {
                               .c_str()) == 0);
         ++checked;
     }
-    std::filesystem::remove_all(folder);
     CHECK(checked > 30);
 }
 

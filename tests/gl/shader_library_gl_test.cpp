@@ -1,6 +1,7 @@
 #include "renderer/base/error.h"
 #include "tests/support/compare.h"
 #include "tests/support/gl_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -11,29 +12,6 @@
 using namespace afterglow;
 
 namespace {
-
-/// A folder of shaders that is gone with its test.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "shadersXXXXXX").string();
-        REQUIRE(mkdtemp(pattern.data()) != nullptr);
-        root_ = pattern;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() { std::filesystem::remove_all(root_); }
-
-    const std::filesystem::path& root() const { return root_; }
-    void write(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories((root_ / name).parent_path());
-        std::ofstream(root_ / name) << text;
-    }
-    void remove(const std::string& name) const { std::filesystem::remove(root_ / name); }
-
-private:
-    std::filesystem::path root_;
-};
 
 const std::string kFill = R"(#version 450 core
 #include "lib/value.glsl"
@@ -58,7 +36,7 @@ TEST_CASE("a program is compiled once for each set of defines") {
     const TemporaryFolder folder;
     folder.write("fill.comp", kFill);
     folder.write("lib/value.glsl", "float value() { return 1.0 + COMMON; }\n");
-    ShaderLibrary library(ShaderSource::fromDirectory(folder.root()), {{"COMMON", "10.0"}});
+    ShaderLibrary library(ShaderSource::fromDirectory(folder.path()), {{"COMMON", "10.0"}});
     ComputeProgram& plain = library.compute("fill.comp", {{"EXTRA", "0.0"}});
     ComputeProgram& more = library.compute("fill.comp", {{"EXTRA", "100.0"}});
     CHECK(&plain != &more);
@@ -74,7 +52,7 @@ TEST_CASE("a changed file changes the programs made from it, and no others") {
     folder.write("fill.comp", kFill);
     folder.write("lib/value.glsl", "float value() { return 1.0; }\n");
     folder.write("other.comp", "#version 450 core\nlayout(local_size_x = 8) in;\nvoid main() {}\n");
-    ShaderLibrary library(ShaderSource::fromDirectory(folder.root()), {{"EXTRA", "0.0"}});
+    ShaderLibrary library(ShaderSource::fromDirectory(folder.path()), {{"EXTRA", "0.0"}});
     ComputeProgram& program = library.compute("fill.comp");
     const GLuint other = library.compute("other.comp").id();
     CHECK(library.reload().reloaded == 0);
@@ -94,7 +72,7 @@ TEST_CASE("an edit that does not compile leaves the program of before in use, un
     const TemporaryFolder folder;
     folder.write("fill.comp", kFill);
     folder.write("lib/value.glsl", "float value() { return 1.0; }\n");
-    ShaderLibrary library(ShaderSource::fromDirectory(folder.root()), {{"EXTRA", "0.0"}});
+    ShaderLibrary library(ShaderSource::fromDirectory(folder.path()), {{"EXTRA", "0.0"}});
     ComputeProgram& program = library.compute("fill.comp");
 
     folder.write("lib/value.glsl", "// broken\n\nfloat value() { return dott(1.0); }\n");
@@ -107,7 +85,7 @@ TEST_CASE("an edit that does not compile leaves the program of before in use, un
         CHECK(valueOf(program) == 1.0f);
     }
 
-    folder.remove("lib/value.glsl");
+    std::filesystem::remove(folder / "lib/value.glsl");
     CHECK(library.reload().errors == Errors{"fill.comp:2: there is no shader file lib/value.glsl"});
     CHECK(valueOf(program) == 1.0f);
 
@@ -123,9 +101,9 @@ TEST_CASE("a file that comes back as it was is no longer reported as missing") {
     const TemporaryFolder folder;
     folder.write("fill.comp", kFill);
     folder.write("lib/value.glsl", "float value() { return 1.0; }\n");
-    ShaderLibrary library(ShaderSource::fromDirectory(folder.root()), {{"EXTRA", "0.0"}});
+    ShaderLibrary library(ShaderSource::fromDirectory(folder.path()), {{"EXTRA", "0.0"}});
     library.compute("fill.comp");
-    folder.remove("lib/value.glsl");
+    std::filesystem::remove(folder / "lib/value.glsl");
     CHECK(library.reload().errors.size() == 1);
     folder.write("lib/value.glsl", "float value() { return 1.0; }\n");
     CHECK(library.reload().errors.empty());
@@ -137,7 +115,7 @@ TEST_CASE("a raster program is reloaded from either of its files") {
     const TemporaryFolder folder;
     folder.write("a.vert", "#version 450 core\nvoid main() { gl_Position = vec4(0); }\n");
     folder.write("a.frag", "#version 450 core\nout vec4 c;\nvoid main() { c = vec4(0); }\n");
-    ShaderLibrary library(ShaderSource::fromDirectory(folder.root()));
+    ShaderLibrary library(ShaderSource::fromDirectory(folder.path()));
     RasterProgram& program = library.raster("a.vert", "a.frag");
     CHECK(&program == &library.raster("a.vert", "a.frag"));
     folder.write("a.frag", "#version 450 core\nout vec4 c;\nvoid main() { c = 1; }\n");
@@ -152,7 +130,7 @@ TEST_CASE("a shader that was never there, or never compiled, is an error at once
     testContext();
     const TemporaryFolder folder;
     folder.write("bad.comp", "#version 450 core\nvoid main() { x = 1; }\n");
-    ShaderLibrary library(ShaderSource::fromDirectory(folder.root()));
+    ShaderLibrary library(ShaderSource::fromDirectory(folder.path()));
     CHECK_THROWS_AS(library.compute("bad.comp"), Error);
     CHECK_THROWS_AS(library.compute("bad.comp"), Error); // it was not kept
     CHECK_THROWS_AS(library.compute("none.comp"), Error);

@@ -3,26 +3,18 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <string>
 
 #include "tests/support/gl_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 namespace afterglow::test {
 
 /// A copy of the shader folder in which one file at a time can be spoilt.
 class SpoiltShaders {
 public:
-    SpoiltShaders()
-        : root_(std::filesystem::temp_directory_path() /
-                ("afterglow-spoilt-" + std::to_string(std::random_device{}()))) {
+    SpoiltShaders() {
         std::filesystem::copy(source(), root_, std::filesystem::copy_options::recursive);
-    }
-    SpoiltShaders(const SpoiltShaders&) = delete;
-    SpoiltShaders& operator=(const SpoiltShaders&) = delete;
-    ~SpoiltShaders() {
-        std::error_code ignored; // a folder left in the temporary directory harms nobody
-        std::filesystem::remove_all(root_, ignored);
     }
 
     /// How often `from` stands in the file; replaced by `to` where it does.
@@ -51,7 +43,8 @@ private:
         return std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders";
     }
 
-    std::filesystem::path root_;
+    TemporaryFolder folder_;
+    std::filesystem::path root_ = folder_.path();
 };
 
 } // namespace afterglow::test

@@ -4,7 +4,9 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 
 namespace afterglow {
 
@@ -12,7 +14,9 @@ namespace afterglow {
 class TemporaryFolder {
 public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "afterglow-XXXXXX").string();
+        std::string name =
+            (std::filesystem::temp_directory_path() / ("afterglow-" + std::string(6, 'X')))
+                .string();
         if (!::mkdtemp(name.data())) {
             throw Error("no temporary folder can be made: " + name);
         }
@@ -26,7 +30,15 @@ public:
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+
+    /// Makes a file, and the folders it lies in; returns its path.
+    std::string write(std::string_view name, std::string_view bytes) const {
+        const std::filesystem::path file = path_ / name;
+        std::filesystem::create_directories(file.parent_path());
+        std::ofstream(file, std::ios::binary) << bytes;
+        return file.string();
+    }
 
 private:
     std::filesystem::path path_;

@@ -1,6 +1,7 @@
 #include "renderer/base/error.h"
 #include "renderer/gl/embedded_shaders.h"
 #include "renderer/gl/shader_source.h"
+#include "tests/support/temporary_folder.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -17,24 +18,14 @@ namespace {
 /// Shaders in a folder that is gone with its test.
 class ShaderFolder {
 public:
-    ShaderFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "shadersXXXXXX").string();
-        REQUIRE(mkdtemp(pattern.data()) != nullptr);
-        root_ = pattern;
-    }
-    ShaderFolder(const ShaderFolder&) = delete;
-    ShaderFolder& operator=(const ShaderFolder&) = delete;
-    ~ShaderFolder() { std::filesystem::remove_all(root_); }
-
     ShaderFolder& write(const std::string& name, const std::string& text) {
-        std::filesystem::create_directories((root_ / name).parent_path());
-        std::ofstream(root_ / name, std::ios::binary) << text;
+        folder_.write(name, text);
         return *this;
     }
-    ShaderSource source() const { return ShaderSource::fromDirectory(root_); }
+    ShaderSource source() const { return ShaderSource::fromDirectory(folder_.path()); }
 
 private:
-    std::filesystem::path root_;
+    TemporaryFolder folder_;
 };
 
 std::string fileText(const std::filesystem::path& path) {
