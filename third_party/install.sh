@@ -11,7 +11,8 @@ packages=(
     fonts-roboto-unhinted
 )
 if [ "${1:-}" = --tests ]; then
-    packages+=(doctest-dev libembree-dev glslang-tools xvfb xauth xdotool)
+    packages+=(doctest-dev libembree-dev glslang-tools xvfb xauth xdotool
+        python3-skimage python3-numpy ffmpeg)
 fi
 
 missing=()

@@ -18,4 +18,9 @@ inline float encodeSrgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
+/// Its inverse: encoded [0, 1] to linear [0, 1].
+inline double decodeSrgb(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 } // namespace afterglow

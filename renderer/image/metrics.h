@@ -16,6 +16,16 @@ Image<float> luminanceOf(const Image<glm::vec4>& image);
 /// How many pixels of a mask count.
 std::size_t countOf(const Mask& mask);
 
+/// The mean of a map, with a mask over its pixels. std::logic_error if none counts, or the mask is
+/// of another size.
+double meanOf(const Image<float>& map, const Mask* mask = nullptr);
+
+/// A measure of each pixel, and its mean over those that count.
+struct MeasuredImage {
+    Image<float> map;
+    double mean = 0.0;
+};
+
 // The measures below compare linear images of equal size. Of a color image they average over red,
 // green and blue of every pixel, and ignore alpha; for the error of luminance, pass luminanceOf().
 // With a mask only its pixels count, in every mean. Sums are in double precision. Images of unequal
@@ -39,9 +49,37 @@ double psnr(const Image<float>& image, const Image<float>& reference, double pea
             const Mask* mask = nullptr);
 double psnr(const Image<glm::vec4>& image, const Image<glm::vec4>& reference, double peak = 1.0,
             const Mask* mask = nullptr);
+/// Of display pixels as they are, with a peak of 255.
+double psnr(const Image<glm::u8vec4>& image, const Image<glm::u8vec4>& reference,
+            const Mask* mask = nullptr);
 
-/// The mean over pixels of the standard deviation over time (of the population: divided by the
-/// number of frames): what an eye sees flicker while nothing changes. At least one frame.
+/// How wrongly an image moves: the RMSE between its change since the frame before and the
+/// reference's change. A constant error does not count.
+double temporalError(const Image<glm::vec4>& now, const Image<glm::vec4>& before,
+                     const Image<glm::vec4>& referenceNow, const Image<glm::vec4>& referenceBefore,
+                     const Mask* mask = nullptr);
+
+/// What an eye sees flicker while nothing changes: the mean over pixels, and red, green and blue,
+/// of the standard deviation over time (of the population: divided by the number of frames). It
+/// keeps sums instead of frames.
+class Flicker {
+public:
+    /// std::logic_error if it is not of the size of the first. Alpha is ignored.
+    void add(const Image<glm::vec4>& frame);
+
+    int frames() const { return frames_; }
+
+    /// Of all frames so far; one does not flicker: 0. std::logic_error before the first, or if no
+    /// pixel counts.
+    double mean(const Mask* mask = nullptr) const;
+
+private:
+    int frames_ = 0;
+    Image<glm::dvec3> mean_;    ///< over time
+    Image<glm::dvec3> squares_; ///< the sum of the squared differences from the mean
+};
+
+/// Flicker of gray frames that one has at hand. At least one frame.
 double flicker(const std::vector<Image<float>>& frames, const Mask* mask = nullptr);
 
 } // namespace afterglow

@@ -124,7 +124,74 @@ TEST_CASE("luminance has the weights of Rec. 709") {
     CHECK(l({3, 0}) == Approx(2.0).epsilon(1e-6));
 }
 
-TEST_CASE("flicker is the mean over pixels of the deviation over time") {
+TEST_CASE("PSNR of display pixels has a peak of 255") {
+    using Color = glm::u8vec4;
+    const Image<Color> reference({4, 3}, Color(200, 100, 50, 7));
+    Image<Color> image({4, 3}, Color(149, 151, 101, 99)); // off by 51, a fifth of the peak
+    CHECK(psnr(image, reference) == Approx(20.0 * std::log10(5.0)).epsilon(1e-12));
+    image({0, 0}) = Color(255);
+    Mask mask(image.size(), 1);
+    mask({0, 0}) = 0;
+    CHECK(psnr(image, reference, &mask) == Approx(20.0 * std::log10(5.0)).epsilon(1e-12));
+    CHECK(std::isinf(psnr(reference, reference)));
+}
+
+TEST_CASE("the mean of a map counts what its mask does") {
+    Image<float> map({3, 1});
+    map({0, 0}) = 0.5f;
+    map({1, 0}) = 1.0f;
+    map({2, 0}) = 4.5f;
+    CHECK(meanOf(map) == 2.0);
+    Mask mask(map.size(), 255);
+    mask({2, 0}) = 0;
+    CHECK(meanOf(map, &mask) == 0.75);
+}
+
+TEST_CASE("a constant error does not move; one that comes and goes does") {
+    const Image<glm::vec4> before = gradient(), now = scaled(gradient(), 2.0f);
+    Image<glm::vec4> imageBefore = before, imageNow = now;
+    for (std::size_t i = 0; i < before.pixels().size(); ++i) {
+        imageBefore.pixels()[i] += glm::vec4(0.5f, -0.25f, 0.125f, 3.0f);
+        imageNow.pixels()[i] += glm::vec4(0.5f, -0.25f, 0.125f, -8.0f); // alpha does not count
+    }
+    CHECK(temporalError(imageNow, imageBefore, now, before) < 1e-6); // fp32 pixels
+    CHECK(temporalError(now, before, now, before) == 0.0);
+
+    // The reference changes and the image does not: the error is all of the change.
+    CHECK(temporalError(before, before, now, before) == Approx(rmse(now, before)).epsilon(1e-12));
+    // Of 105 values one gains 0.3 too much, and one 0.4.
+    imageNow = now;
+    imageNow({1, 2}).g += 0.3f;
+    imageBefore = before;
+    imageBefore({6, 4}).r -= 0.4f;
+    CHECK(temporalError(imageNow, imageBefore, now, before) ==
+          Approx(0.5 / std::sqrt(105.0)).epsilon(1e-6));
+    Mask mask(now.size(), 1);
+    mask({6, 4}) = 0;
+    CHECK(temporalError(imageNow, imageBefore, now, before, &mask) ==
+          Approx(0.3 / std::sqrt(102.0)).epsilon(1e-6));
+}
+
+TEST_CASE("flicker is the mean over pixels and channels of the deviation over time") {
+    // In pixel 0, red alternates by 0.25 about 1000 and green by 0.5 about 2; all else stands
+    // still.
+    Flicker flicker;
+    for (int i = 0; i < 16; ++i) {
+        Image<glm::vec4> frame({2, 1}, glm::vec4(7.0f, 7.0f, 7.0f, float(i)));
+        frame({0, 0}).r = i % 2 ? 1000.25f : 999.75f; // exact in fp32
+        frame({0, 0}).g = i % 2 ? 1.5f : 2.5f;
+        flicker.add(frame);
+        if (i == 0)
+            CHECK(flicker.mean() == 0.0);
+    }
+    CHECK(flicker.frames() == 16);
+    CHECK(flicker.mean() == Approx(0.75 / 6.0).epsilon(1e-12));
+    Mask mask({2, 1}, 1);
+    mask({1, 0}) = 0;
+    CHECK(flicker.mean(&mask) == Approx(0.75 / 3.0).epsilon(1e-12));
+}
+
+TEST_CASE("flicker of gray frames is the mean over pixels of the deviation over time") {
     // Pixel 0 alternates by 0.25 about 1000, pixel 1 stands still.
     std::vector<Image<float>> frames;
     for (int i = 0; i < 16; ++i) {
@@ -148,4 +215,16 @@ TEST_CASE("comparing what cannot be compared is our mistake") {
     CHECK_THROWS_AS(psnr(a, a, 1.0, &none), std::logic_error);
     CHECK_THROWS_AS(flicker({}), std::logic_error);
     CHECK_THROWS_AS(flicker({a, b}), std::logic_error);
+    CHECK_THROWS_AS(meanOf(a, &none), std::logic_error);
+    CHECK_THROWS_AS(meanOf(a, &other), std::logic_error);
+
+    const Image<glm::vec4> c({4, 4}), d({5, 4});
+    CHECK_THROWS_AS(temporalError(c, c, c, d), std::logic_error);
+    CHECK_THROWS_AS(temporalError(c, d, c, c), std::logic_error);
+    CHECK_THROWS_AS(temporalError(c, c, c, c, &none), std::logic_error);
+    Flicker flickering;
+    CHECK_THROWS_AS(flickering.mean(), std::logic_error);
+    flickering.add(c);
+    CHECK_THROWS_AS(flickering.add(d), std::logic_error);
+    CHECK_THROWS_AS(flickering.mean(&other), std::logic_error);
 }
