@@ -1,13 +1,127 @@
 #include "app/experiment/reference.h"
 
+#include "renderer/base/error.h"
+#include "renderer/base/log.h"
 #include "renderer/image/color.h"
-#include "renderer/image/metrics.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Adds samples to the renderer's reference, counts their rays and tells of them.
+class Sampling {
+public:
+    Sampling(Renderer& renderer, const std::function<void(int)>& advanced)
+        : renderer_(renderer), advanced_(advanced) {
+        // The device counts in 32 bits over the whole image, and a pixel has at most two rays.
+        const auto pixels = std::uint64_t(renderer.size().x) * std::uint64_t(renderer.size().y);
+        largestPortion_ = int(std::clamp<std::uint64_t>((~0u) / (2 * pixels), 1, 1 << 16));
+    }
+
+    void addUpTo(int target) {
+        while (done_ < target) {
+            const auto start = Clock::now();
+            const int portion = std::min({portion_, largestPortion_, target - done_});
+            renderer_.addReferenceSamples(portion);
+            done_ += portion;
+            const auto now = std::uint32_t(renderer_.readStats().rays);
+            rays_ += std::uint32_t(now - counted_);
+            counted_ = now;
+            if (advanced_)
+                advanced_(portion);
+            // Reading makes a GPU wait: as often as progress is to move, and no more.
+            if (millisecondsSince(start) < kShortest && portion == portion_)
+                portion_ = std::min(2 * portion_, largestPortion_);
+        }
+    }
+    std::uint64_t rays() const { return rays_; }
+
+private:
+    static constexpr double kShortest = 50.0; ///< milliseconds
+
+    Renderer& renderer_;
+    const std::function<void(int)>& advanced_;
+    int portion_ = 4, largestPortion_ = 1, done_ = 0;
+    std::uint32_t counted_ = 0;
+    std::uint64_t rays_ = 0;
+};
+
+/// The error of the mean of n samples, from how far the mean of the first m = n / 2 is from it.
+/// mean(n) - mean(m) = (1 - m/n) (mean of the rest - mean(m)), whose variance is s^2 (1/m - 1/n);
+/// that of mean(n) is s^2 / n.
+double residualOf(double distance, int samples) {
+    const double n = samples, m = samples / 2;
+    return distance / std::sqrt(n / m - 1.0);
+}
+
+struct Converged {
+    const GpuTexture* display = nullptr;
+    Image<glm::vec4> lit, litOfHalf; ///< the second is empty for a single sample
+    double milliseconds = 0.0;
+    std::uint64_t rays = 0;
+};
+
+Converged convergeBoth(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                       const Settings& settings, int samples,
+                       const std::function<void(int)>& advanced) {
+    if (samples < 1)
+        throw std::logic_error("a reference needs at least one sample");
+    Converged result;
+    const auto start = Clock::now();
+    renderer.beginReference(seen, world, settings);
+    Sampling sampling(renderer, advanced);
+    if (samples > 1) {
+        sampling.addUpTo(samples / 2);
+        renderer.finishReference();
+        result.litOfHalf = litRadiance(renderer);
+    }
+    sampling.addUpTo(samples);
+    result.display = &renderer.finishReference();
+    glFinish();
+    result.milliseconds = millisecondsSince(start);
+    result.rays = sampling.rays();
+    result.lit = litRadiance(renderer);
+    return result;
+}
+
+Reference makeReference(Renderer& renderer, const ReferenceRequest& request,
+                        const std::function<void(int)>& advanced) {
+    const Converged converged = convergeBoth(renderer, request.seen, request.world,
+                                             request.settings, request.samples, advanced);
+    Reference reference;
+    reference.signal = renderer.filteredSignal().read<glm::vec4>();
+    reference.rays = converged.rays;
+    reference.milliseconds = converged.milliseconds;
+    reference.samples = request.samples;
+    const Mask foreground = foregroundOf(renderer);
+    if (request.samples > 1 && countOf(foreground) > 0)
+        reference.residual =
+            residualOf(rmse(converged.litOfHalf, converged.lit, &foreground), request.samples);
+    return reference;
+}
+
+/// More than the moments that one experiment looks back at.
+constexpr std::size_t kKeptBytes = std::size_t(256) << 20;
+
+std::size_t bytesOf(const Reference& reference) {
+    return reference.signal.pixels().size_bytes();
+}
+
+} // namespace
 
 Mask foregroundOf(const Renderer& renderer) {
     const auto guides = renderer.targets().guides.current().read<glm::vec4>();
@@ -17,58 +131,106 @@ Mask foregroundOf(const Renderer& renderer) {
     return mask;
 }
 
-Image<float> litLuminance(const Renderer& renderer) {
-    const auto signal = renderer.filteredSignal().read<glm::vec4>();
+Image<glm::vec4> litRadiance(const Renderer& renderer) {
+    auto lit = renderer.filteredSignal().read<glm::vec4>();
     const auto albedo = renderer.targets().albedo.read<glm::vec4>();
-    Image<float> lit(signal.size());
     for (std::size_t i = 0; i < lit.pixels().size(); ++i)
-        lit.pixels()[i] = luminance(glm::vec3(signal.pixels()[i]) * glm::vec3(albedo.pixels()[i]));
+        lit.pixels()[i] =
+            glm::vec4(glm::vec3(lit.pixels()[i]) * glm::vec3(albedo.pixels()[i]), 0.0f);
     return lit;
+}
+
+Image<float> litLuminance(const Renderer& renderer) {
+    return luminanceOf(litRadiance(renderer));
 }
 
 Convergence converge(Renderer& renderer, const FrameInput& input, const Settings& settings,
                      int samples, const std::function<void(int)>& advanced) {
-    using Clock = std::chrono::steady_clock;
-    constexpr int kPortion = 8; // small enough that progress moves, and counters do not overflow
-    Convergence result;
-    const auto start = Clock::now();
-    std::uint32_t counted = 0;
-    int done = 0;
-    renderer.beginReference(input, settings);
-    const auto addUpTo = [&](int target) {
-        while (done < target) {
-            const int portion = std::min(kPortion, target - done);
-            renderer.addReferenceSamples(portion);
-            done += portion;
-            // The device counts in 32 bits over the whole image.
-            const auto now = std::uint32_t(renderer.readStats().rays);
-            result.rays += std::uint32_t(now - counted);
-            counted = now;
-            if (advanced)
-                advanced(portion);
-        }
-    };
-
-    Image<float> half;
-    if (samples > 1) {
-        addUpTo(samples / 2);
-        renderer.finishReference();
-        half = litLuminance(renderer);
-    }
-    addUpTo(samples);
-    result.display = &renderer.finishReference();
-    glFinish();
-    result.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    result.lit = litLuminance(renderer);
-
-    // With n samples of which m are in the first half, mean(n) - mean(m) = (1 - m/n) (mean of the
-    // rest - mean(m)), whose variance is s^2 (1/m - 1/n); that of mean(n) is s^2 / n.
+    const Converged converged = convergeBoth(renderer, input, input, settings, samples, advanced);
+    Convergence result{.display = converged.display,
+                       .lit = luminanceOf(converged.lit),
+                       .residual = 0.0,
+                       .milliseconds = converged.milliseconds,
+                       .rays = converged.rays};
     const Mask foreground = foregroundOf(renderer);
-    if (samples > 1 && countOf(foreground) > 0) {
-        const double n = samples, m = samples / 2;
-        result.residual = rmse(half, result.lit, &foreground) / std::sqrt(n / m - 1.0);
-    }
+    if (samples > 1 && countOf(foreground) > 0)
+        result.residual =
+            residualOf(rmse(luminanceOf(converged.litOfHalf), result.lit, &foreground), samples);
     return result;
+}
+
+ReferenceStore::ReferenceStore(ReferenceMaker maker, std::optional<ReferenceCache> cache)
+    : maker_(std::move(maker)), cache_(std::move(cache)) {}
+
+ReferenceStore ReferenceStore::withDefaultCache(ReferenceMaker maker) {
+    ReferenceStore store(std::move(maker));
+    store.cacheIsRequired_ = false;
+    try {
+        store.cache_.emplace(defaultCacheFolder());
+    } catch (const Error& error) {
+        log(LogLevel::Warning, std::string("references will not be kept: ") + error.what());
+    }
+    return store;
+}
+
+Reference ReferenceStore::get(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                              const Settings& settings, int samples,
+                              const std::function<void(int)>& advanced) {
+    const ReferenceRequest request{renderer.scene(), renderer.size(), seen, world,
+                                   settings,         samples};
+    const std::string key = referenceKey(request, maker_);
+    if (std::optional<Reference> known = recall(key)) {
+        renderer.beginReference(seen, settings);
+        renderer.showReference(known->signal, settings);
+        if (advanced)
+            advanced(samples);
+        return *std::move(known);
+    }
+    Reference reference = makeReference(renderer, request, advanced);
+    ++counts_.converged;
+    writeCache(key, reference, request);
+    keep(key, reference);
+    return reference;
+}
+
+std::optional<Reference> ReferenceStore::recall(const std::string& key) {
+    const auto kept = std::ranges::find(kept_, key, &Kept::key);
+    if (kept != kept_.end()) {
+        kept_.splice(kept_.begin(), kept_, kept);
+        ++counts_.fromMemory;
+        Reference reference = kept_.front().reference;
+        reference.cached = true;
+        return reference;
+    }
+    std::optional<Reference> found = cache_ ? cache_->find(key) : std::nullopt;
+    if (found) {
+        ++counts_.fromCache;
+        keep(key, *found);
+    }
+    return found;
+}
+
+void ReferenceStore::keep(const std::string& key, const Reference& reference) {
+    kept_.push_front({key, reference});
+    keptBytes_ += bytesOf(reference);
+    while (keptBytes_ > kKeptBytes && kept_.size() > 1) {
+        keptBytes_ -= bytesOf(kept_.back().reference);
+        kept_.pop_back();
+    }
+}
+
+void ReferenceStore::writeCache(const std::string& key, const Reference& reference,
+                                const ReferenceRequest& request) {
+    if (!cache_)
+        return;
+    try {
+        cache_->store(key, reference, describe(request, maker_));
+    } catch (const Error& error) {
+        if (cacheIsRequired_)
+            throw;
+        log(LogLevel::Warning, std::string("references are no longer kept: ") + error.what());
+        cache_.reset();
+    }
 }
 
 } // namespace afterglow

@@ -1,29 +1,29 @@
 #pragma once
 
+#include "app/experiment/reference_cache.h"
 #include "renderer/image/metrics.h"
 #include "renderer/pipeline/renderer.h"
 
 #include <functional>
+#include <list>
 
 namespace afterglow {
 
 /// The pixels of the last frame or reference that show a surface.
 Mask foregroundOf(const Renderer& renderer);
 
-/// The luminance of the light that surfaces reflect towards the viewer: the filtered signal times
-/// albedo, linear. Without emission, which no filter touches: a light that is seen directly is so
-/// much brighter than all it shines on that its going out would be all there is to measure.
-Image<float> litLuminance(const Renderer& renderer);
+/// The light that surfaces reflect towards the viewer: the filtered signal times albedo, linear;
+/// alpha is 0. Without emission, which no filter touches: a light that is seen directly is so much
+/// brighter than all it shines on that its going out would be all there is to measure.
+Image<glm::vec4> litRadiance(const Renderer& renderer);
+Image<float> litLuminance(const Renderer& renderer); ///< of litRadiance()
 
 /// A converged image and how far it can be trusted.
 struct Convergence {
     const GpuTexture* display = nullptr; ///< the renderer's; until its next frame
     Image<float> lit;                    ///< litLuminance()
-    /// The RMSE that `lit` still has against the limit, over the foreground, from the
-    /// difference between the mean of the first half of its samples and the mean of all. Exact in
-    /// expectation where samples are independent. 0 for a single sample, which has no halves.
-    double residual = 0.0;
-    double milliseconds = 0.0; ///< of tracing
+    double residual = 0.0;               ///< of `lit`, as Reference::residual
+    double milliseconds = 0.0;           ///< of tracing
     std::uint64_t rays = 0;
 };
 
@@ -31,5 +31,50 @@ struct Convergence {
 /// `advanced` is told of every portion of samples as it is done.
 Convergence converge(Renderer& renderer, const FrameInput& input, const Settings& settings,
                      int samples, const std::function<void(int)>& advanced = {});
+
+/// References, each converged once: those of this run are kept in memory as far as there is room,
+/// and all in the cache, if there is one.
+class ReferenceStore {
+public:
+    explicit ReferenceStore(ReferenceMaker maker, std::optional<ReferenceCache> cache = {});
+    /// With the cache in the default folder. Where there can be none, a warning says so, and that
+    /// is all.
+    static ReferenceStore withDefaultCache(ReferenceMaker maker);
+
+    /// The surfaces of `seen` in the light of `world`; see Renderer::beginReference(). `samples` a
+    /// pixel, at least 1. Afterwards the renderer shows it, and holds guides, albedo and emission
+    /// of `seen`; histories are void. `advanced` is told of every portion of samples as it is done,
+    /// and at once of all that need not be done.
+    ///
+    /// Error, naming the file, if the cache cannot be written; with the default cache a warning,
+    /// and no more writing.
+    Reference get(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                  const Settings& settings, int samples,
+                  const std::function<void(int)>& advanced = {});
+
+    struct Counts {
+        int converged = 0, fromMemory = 0, fromCache = 0;
+    };
+    const Counts& counts() const { return counts_; }
+    const ReferenceMaker& maker() const { return maker_; }
+    const std::optional<ReferenceCache>& cache() const { return cache_; }
+
+private:
+    struct Kept {
+        std::string key;
+        Reference reference;
+    };
+    std::optional<Reference> recall(const std::string& key);
+    void keep(const std::string& key, const Reference& reference);
+    void writeCache(const std::string& key, const Reference& reference,
+                    const ReferenceRequest& request);
+
+    ReferenceMaker maker_;
+    std::optional<ReferenceCache> cache_;
+    bool cacheIsRequired_ = true;
+    std::list<Kept> kept_; ///< the one used last is first
+    std::size_t keptBytes_ = 0;
+    Counts counts_;
+};
 
 } // namespace afterglow

@@ -1,6 +1,8 @@
 #include "renderer/gl/shader_library.h"
 
 #include "renderer/base/error.h"
+#include "renderer/base/hash.h"
+#include "renderer/gl/embedded_shaders.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -102,6 +104,22 @@ ShaderLibrary::ReloadReport ShaderLibrary::reload() {
     reload(compute_, report);
     reload(raster_, report);
     return report;
+}
+
+std::string ShaderLibrary::fingerprint(std::span<const std::string_view> folders) const {
+    const auto isShader = [&](std::string_view name) {
+        return (name.ends_with(".comp") || name.ends_with(".vert") || name.ends_with(".frag")) &&
+               std::ranges::any_of(
+                   folders, [&](std::string_view folder) { return name.starts_with(folder); });
+    };
+    Hash hash;
+    // A folder of shaders has the same files as the executable that was built from it.
+    for (const EmbeddedFile& file : embeddedFiles())
+        if (isShader(file.name)) {
+            hash.addList(file.name);
+            hash.addList(source_.expand(file.name, common_).text);
+        }
+    return hash.hex();
 }
 
 ShaderLibrary makeShaderLibrary(const GlInfo& info) {

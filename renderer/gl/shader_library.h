@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,11 @@ public:
     /// it was, and its error is in every report until its files are mended. Nothing to do when
     /// embedded.
     ReloadReport reload();
+
+    /// A hash of the texts, as they stand now, of all shaders whose names begin with one of these
+    /// ("lighting/"), with all that they include and the common defines. Throws Error where one
+    /// includes a file that is not there.
+    std::string fingerprint(std::span<const std::string_view> folders) const;
 
     const ShaderSource& source() const { return source_; }
     const Defines& common() const { return common_; }

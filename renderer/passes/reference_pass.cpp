@@ -6,8 +6,10 @@ ReferencePass::ReferencePass(ShaderLibrary& shaders)
     : accumulate_(shaders.compute("lighting/accumulate.comp")),
       mean_(shaders.compute("lighting/mean.comp")) {}
 
-void ReferencePass::add(FrameContext&, const GpuTexture& raw, GpuTexture& sum) {
-    accumulate_.dispatch(sum.size(), {{"raw", raw}}, {{"sum", sum}});
+void ReferencePass::add(FrameContext& frame, const GpuTexture& raw, const Sums& to) {
+    const auto scope = frame.timer.scope("accumulate");
+    accumulate_.dispatch(to.sum.size(), {{"raw", raw}},
+                         {{"seeds", to.seeds}, {"sum", to.sum}, {"lost", to.lost}});
 }
 
 void ReferencePass::mean(FrameContext&, const GpuTexture& sum, int samples, GpuTexture& mean) {

@@ -6,12 +6,19 @@
 
 namespace afterglow {
 
-/// A running sum of raw signals in 32-bit float, and its mean: the converged reference.
-/// See shaders/lighting/accumulate.comp and mean.comp. Reads the frame block.
+/// A running sum of raw signals, and its mean: the converged reference. See
+/// shaders/lighting/accumulate.comp and mean.comp. Reads the frame block.
 class ReferencePass {
 public:
+    struct Sums {
+        GpuTexture& seeds; ///< become those of the next sample
+        GpuTexture& sum;   ///< RGBA32F: rgb of the signal, square of its luminance
+        GpuTexture& lost;  ///< RGBA32F: what rounding has taken from it
+    };
+
     explicit ReferencePass(ShaderLibrary& shaders);
-    void add(FrameContext& frame, const GpuTexture& raw, GpuTexture& sum);
+    void add(FrameContext& frame, const GpuTexture& raw, const Sums& to);
+    /// rgb: mean signal; a: variance of one sample's luminance.
     void mean(FrameContext& frame, const GpuTexture& sum, int samples, GpuTexture& mean);
 
 private:

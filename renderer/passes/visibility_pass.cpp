@@ -20,10 +20,10 @@ void VisibilityPass::run(FrameContext& frame, const SceneGpu& scene, const Outpu
         rasterize(scene, out.framebuffer);
     }
     const auto scope = frame.timer.scope("resolve");
-    resolve(frame, scene, out);
+    resolve(scene, out);
 }
 
-void VisibilityPass::resolve(FrameContext&, const SceneGpu& scene, const Outputs& out) {
+void VisibilityPass::resolve(const SceneGpu& scene, const Outputs& out) {
     resolve_.dispatch(out.ids.size(),
                       {{"ids", out.ids},
                        {"vertices", scene.vertices},

@@ -20,11 +20,10 @@ public:
 
     explicit VisibilityPass(ShaderLibrary& shaders);
     void run(FrameContext& frame, const SceneGpu& scene, const Outputs& out);
-    /// Seeds alone, for another sample of the same surfaces.
-    void resolve(FrameContext& frame, const SceneGpu& scene, const Outputs& out);
 
 private:
     void rasterize(const SceneGpu& scene, const Framebuffer& framebuffer);
+    void resolve(const SceneGpu& scene, const Outputs& out);
 
     RasterProgram& raster_;
     ComputeProgram& resolve_;

@@ -18,7 +18,11 @@ struct Renderer::Impl {
             throw std::logic_error("Renderer: setScene() and resize() come before a frame");
     }
     void begin(const FrameInput& input, const Settings& settings);
-    void trace(const Settings& settings);
+    void setLights(const FrameInput& input);
+    void findSurfaces(FrameContext& context);
+    void placeSurfaces(FrameContext& context, double seconds);
+    void trace(const Settings& settings, const GpuTexture& tracedSurface,
+               const GpuTexture& tracedGuides);
     const GpuTexture& present(FrameContext& context, const GpuTexture& signal,
                               const Settings& settings);
 
@@ -39,9 +43,24 @@ struct Renderer::Impl {
     RenderTargets targets;
     const GpuTexture* signal = nullptr; ///< of the last frame
 
+    /// Surfaces somewhere else than where they are seen.
+    struct PlacedSurfaces {
+        explicit PlacedSurfaces(glm::ivec2 size)
+            : surface("placed surface", PixelFormat::RGBA32UI, size),
+              guides("placed guides", PixelFormat::RGBA32F, size),
+              slope("placed slope", PixelFormat::RG32F, size),
+              motion("placed motion", PixelFormat::RGBA32F, size),
+              albedo("placed albedo", PixelFormat::RGBA32F, size),
+              emission("placed emission", PixelFormat::RGBA32F, size) {}
+        GpuTexture surface, guides, slope, motion, albedo, emission;
+    };
+    std::optional<PlacedSurfaces> placed; ///< kept from one reference to the next
+    GpuTexture lost;                      ///< what rounding took from targets.sum
+
     struct Reference {
         Settings settings;
-        std::uint32_t firstIndex = 0;
+        const GpuTexture* surface = nullptr; ///< the surfaces that are lit
+        const GpuTexture* guides = nullptr;
         int samples = 0;
     };
     std::optional<Reference> converging;
@@ -64,6 +83,7 @@ void Renderer::setScene(Scene scene) {
                          .bvhNodes = gpuSide.bvh().nodes().size(),
                          .bvhBuildMilliseconds = gpuSide.bvhBuildMilliseconds()};
     impl_->previousPose.reset();
+    impl_->converging.reset();
     resetHistory();
 }
 
@@ -79,6 +99,9 @@ void Renderer::resize(glm::ivec2 size) {
         return;
     impl_->targets = RenderTargets(size);
     impl_->signal = nullptr;
+    impl_->converging.reset();
+    impl_->placed.reset();
+    impl_->lost = {};
     resetHistory();
 }
 
@@ -95,11 +118,7 @@ void Renderer::Impl::begin(const FrameInput& input, const Settings& settings) {
     const Pose pose = poseAt(scene, input.seconds);
     sceneGpu->update(scene, pose, previousPose.value_or(pose));
     previousPose = pose;
-
-    std::vector<glm::vec3> scales;
-    for (const LightState& light : input.lights)
-        scales.push_back(light.scale());
-    sceneGpu->setLightScales(scales);
+    setLights(input);
 
     gpu::FrameUniforms& u = frame.uniforms;
     // Without occlusion rays there are no surroundings: the lights are all the light there is.
@@ -117,13 +136,43 @@ void Renderer::Impl::begin(const FrameInput& input, const Settings& settings) {
     targets.counters.clear();
 }
 
-// Surfaces and one sample of the signal from what the visibility buffer and the seeds hold.
-void Renderer::Impl::trace(const Settings& settings) {
+void Renderer::Impl::setLights(const FrameInput& input) {
+    std::vector<glm::vec3> scales;
+    for (const LightState& light : input.lights)
+        scales.push_back(light.scale());
+    sceneGpu->setLightScales(scales);
+}
+
+// The visibility samples of the pixels' centers, for a reference, and their surfaces.
+void Renderer::Impl::findSurfaces(FrameContext& context) {
+    RenderTargets& t = targets;
+    visibility.run(context, *sceneGpu,
+                   {t.framebuffer, t.ids, t.visibility.current(), t.seeds.current()});
+    surface.run(context, *sceneGpu, {t.visibility.current()},
+                {t.surface, t.guides.current(), t.slope, t.motion, t.albedo, t.emission});
+}
+
+// Moves the scene to another time, and the visibility samples with it.
+void Renderer::Impl::placeSurfaces(FrameContext& context, double seconds) {
+    const Pose pose = poseAt(scene, seconds);
+    sceneGpu->update(scene, pose, pose);
+    frame.uniforms.bvh = sceneGpu->bvh().params();
+    frame.upload();
+    if (!placed)
+        placed.emplace(targets.size);
+    surface.run(context, *sceneGpu, {targets.visibility.current()},
+                {placed->surface, placed->guides, placed->slope, placed->motion, placed->albedo,
+                 placed->emission});
+}
+
+// One sample of the signal on these surfaces, from what the visibility buffer and the seeds hold.
+void Renderer::Impl::trace(const Settings& settings, const GpuTexture& tracedSurface,
+                           const GpuTexture& tracedGuides) {
     FrameContext context{timer};
     RenderTargets& t = targets;
     const auto signalKind = Signal(settings.lighting.signal);
     lighting.run(context, *sceneGpu,
-                 {t.visibility.current(), t.surface, t.guides.current(), t.seeds.current()},
+                 {t.visibility.current(), tracedSurface, tracedGuides, t.seeds.current()},
                  {t.raw.current(), t.counters},
                  {.shadows = signalKind != Signal::AmbientOcclusion,
                   .ambientOcclusion = signalKind != Signal::Shadows});
@@ -144,6 +193,7 @@ const GpuTexture& Renderer::render(const FrameInput& input, const Settings& sett
     impl_->requireScene();
     Impl& self = *impl_;
     RenderTargets& t = self.targets;
+    self.converging.reset();
     // The frame before becomes the history. At the start and not at the end of a frame, so that
     // what was just rendered can be looked at as "current".
     t.swapHistories();
@@ -158,7 +208,7 @@ const GpuTexture& Renderer::render(const FrameInput& input, const Settings& sett
         self.denoiser.carrySamples(context, *self.sceneGpu, t);
     self.surface.run(context, *self.sceneGpu, {t.visibility.current()},
                      {t.surface, t.guides.current(), t.slope, t.motion, t.albedo, t.emission});
-    self.trace(settings);
+    self.trace(settings, t.surface, t.guides.current());
     const GpuTexture& clean = self.denoiser.run(context, plan, t, settings.denoiser);
     const GpuTexture& display = self.present(context, clean, settings);
 
@@ -168,19 +218,32 @@ const GpuTexture& Renderer::render(const FrameInput& input, const Settings& sett
 }
 
 void Renderer::beginReference(const FrameInput& input, const Settings& settings) {
+    beginReference(input, input, settings);
+}
+
+void Renderer::beginReference(const FrameInput& seen, const FrameInput& world,
+                              const Settings& settings) {
     impl_->requireScene();
     Impl& self = *impl_;
     RenderTargets& t = self.targets;
-    self.begin(input, settings);
+    FrameInput first = seen;
+    first.frame = 0; // the number of a reference's first sample takes the place of the frame's
+    self.begin(first, settings);
     self.frame.forget();
     self.previousPose.reset();
     FrameContext context{self.timer};
-    self.visibility.run(context, *self.sceneGpu,
-                        {t.framebuffer, t.ids, t.visibility.current(), t.seeds.current()});
-    self.surface.run(context, *self.sceneGpu, {t.visibility.current()},
-                     {t.surface, t.guides.current(), t.slope, t.motion, t.albedo, t.emission});
+    self.findSurfaces(context);
+    self.setLights(world);
+    self.converging = Impl::Reference{settings, &t.surface, &t.guides.current()};
+    if (world.seconds != seen.seconds) {
+        self.placeSurfaces(context, world.seconds);
+        self.converging->surface = &self.placed->surface;
+        self.converging->guides = &self.placed->guides;
+    }
+    if (self.lost.size() != t.size)
+        self.lost = GpuTexture("sum, lost", PixelFormat::RGBA32F, t.size);
+    self.lost.clear();
     t.sum.clear();
-    self.converging = Impl::Reference{settings, 0, 0};
 }
 
 void Renderer::addReferenceSamples(int count) {
@@ -189,15 +252,11 @@ void Renderer::addReferenceSamples(int count) {
         throw std::logic_error("Renderer: beginReference() comes before its samples");
     RenderTargets& t = self.targets;
     FrameContext context{self.timer};
+    Impl::Reference& reference = *self.converging;
     for (int i = 0; i < count; ++i) {
-        self.frame.uniforms.sampleIndex =
-            self.converging->firstIndex + std::uint32_t(self.converging->samples);
-        self.frame.upload();
-        self.visibility.resolve(context, *self.sceneGpu,
-                                {t.framebuffer, t.ids, t.visibility.current(), t.seeds.current()});
-        self.trace(self.converging->settings);
-        self.reference.add(context, t.raw.current(), t.sum);
-        ++self.converging->samples;
+        self.trace(reference.settings, *reference.surface, *reference.guides);
+        self.reference.add(context, t.raw.current(), {t.seeds.current(), t.sum, self.lost});
+        ++reference.samples;
     }
 }
 
@@ -209,6 +268,15 @@ const GpuTexture& Renderer::finishReference() {
     self.reference.mean(context, self.targets.sum, self.converging->samples,
                         self.targets.filtered[0]);
     return self.present(context, self.targets.filtered[0], self.converging->settings);
+}
+
+const GpuTexture& Renderer::showReference(const Image<glm::vec4>& converged,
+                                          const Settings& settings) {
+    impl_->requireScene();
+    Impl& self = *impl_;
+    FrameContext context{self.timer};
+    self.targets.filtered[0].write(converged);
+    return self.present(context, self.targets.filtered[0], settings);
 }
 
 const RenderTargets& Renderer::targets() const {

@@ -58,13 +58,25 @@ public:
     /// Renders one frame; returns the display image (RGBA8, sRGB-encoded, row 0 on top).
     const GpuTexture& render(const FrameInput& input, const Settings& settings);
 
-    /// The converged image of one moment: the same pixel-centre surface samples, many samples of
-    /// the signal a pixel, averaged in 32-bit float. begin, then add as often as wanted, then
-    /// finish. All histories are lost: the images of a frame are next frame's history.
+    /// A reference: the converged signal of one moment, from the same pixel-centre surface samples
+    /// that a frame has and many samples of the signal a pixel, summed in compensated 32-bit float.
+    /// begin, then add as often as wanted, then finish. All histories are lost.
     void beginReference(const FrameInput& input, const Settings& settings);
+    /// The surfaces that `seen` shows, in the light of `world`: the visibility samples (instance,
+    /// triangle, barycentrics) are those of the camera and the pose of `seen`; they are placed by
+    /// the pose of `world` and lit by its lights, among its geometry. With the frame before as
+    /// `world` this is what the surfaces of this frame reflected one frame ago: E f_{i-1} of
+    /// [ASVGF]. Normals are turned to the camera of `seen`, and the seed is that of `seen`; the
+    /// camera of `world` is not used. Surfaces, guides, albedo and emission of targets() stay those
+    /// of `seen`.
+    void beginReference(const FrameInput& seen, const FrameInput& world, const Settings& settings);
     void addReferenceSamples(int count);
-    /// The mean so far as `filtered`, `color` and display image.
+    /// The mean so far as `filtered` and display image; alpha is the variance of one sample's
+    /// luminance.
     const GpuTexture& finishReference();
+    /// Makes a signal that was converged before the `filtered` and the display image, on the
+    /// surfaces of the last frame or beginReference(). Another size is std::logic_error.
+    const GpuTexture& showReference(const Image<glm::vec4>& signal, const Settings& settings);
 
     const RenderTargets& targets() const;
     /// The denoised (or raw, or converged) demodulated signal of the last frame.

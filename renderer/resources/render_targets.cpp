@@ -9,9 +9,13 @@ glm::ivec2 strataOf(glm::ivec2 size) {
     return (size + int(gpu::kStratumSize) - 1) / int(gpu::kStratumSize);
 }
 
+glm::ivec2 tilesOf(glm::ivec2 size) {
+    return (size + int(gpu::kTileSize) - 1) / int(gpu::kTileSize);
+}
+
 RenderTargets::RenderTargets(glm::ivec2 imageSize)
-    : size(imageSize), strata(strataOf(imageSize)), ids("ids", PixelFormat::RG32UI, size),
-      depth("depth", PixelFormat::Depth32F, size),
+    : size(imageSize), strata(strataOf(imageSize)), tiles(tilesOf(imageSize)),
+      ids("ids", PixelFormat::RG32UI, size), depth("depth", PixelFormat::Depth32F, size),
       visibility("visibility", PixelFormat::RGBA32UI, size),
       seeds("seeds", PixelFormat::R32UI, size), guides("guides", PixelFormat::RGBA32F, size),
       raw("raw", PixelFormat::RGBA32F, size), color("color", PixelFormat::RGBA32F, size),
@@ -27,6 +31,7 @@ RenderTargets::RenderTargets(glm::ivec2 imageSize)
       strataGuides("strata guides", PixelFormat::RGBA32F, strata),
       strataSlope("strata slope", PixelFormat::RG32F, strata),
       lambda("lambda", PixelFormat::R32F, strata),
+      luminanceRange("luminance range", PixelFormat::RGBA32F, tiles),
       accumulated("accumulated", PixelFormat::RGBA32F, size),
       control("control", PixelFormat::RGBA32F, size), filtered{{"filtered 0", PixelFormat::RGBA32F,
                                                                 size},
@@ -51,11 +56,10 @@ std::vector<const GpuTexture*> RenderTargets::all() const {
         textures.push_back(&history->previous());
     }
     for (const GpuTexture* texture :
-         {&surface,      &slope,       &motion,          &albedo,      &emission,
-          &owners,       &samples,     &gradientSamples, &gradient[0], &gradient[1],
-          &strataGuides, &strataSlope, &lambda,          &accumulated, &control,
-          &filtered[0],  &filtered[1], &composed,        &display,     &sum,
-          &counters})
+         {&surface,  &slope,           &motion,      &albedo,      &emission,     &owners,
+          &samples,  &gradientSamples, &gradient[0], &gradient[1], &strataGuides, &strataSlope,
+          &lambda,   &luminanceRange,  &accumulated, &control,     &filtered[0],  &filtered[1],
+          &composed, &display,         &sum,         &counters})
         textures.push_back(texture);
     return textures;
 }

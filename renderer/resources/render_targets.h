@@ -10,6 +10,8 @@ namespace afterglow {
 
 /// The number of strata that cover an image: ceil(size / 3).
 glm::ivec2 strataOf(glm::ivec2 size);
+/// The number of tiles that cover an image: ceil(size / 8).
+glm::ivec2 tilesOf(glm::ivec2 size);
 
 /// Every screen-sized texture of the renderer: what it holds, how, and for how long. Contents are
 /// specified in docs/pipeline.md. Resize by assignment; nothing survives a resize.
@@ -22,7 +24,7 @@ struct RenderTargets {
     std::size_t bytes() const;
     std::vector<const GpuTexture*> all() const;
 
-    glm::ivec2 size{0}, strata{0};
+    glm::ivec2 size{0}, strata{0}, tiles{0};
 
     GpuTexture ids;   ///< RG32UI: instance + 1, triangle, as rasterized; 0 is background
     GpuTexture depth; ///< of the raster pass, reversed
@@ -37,6 +39,7 @@ struct RenderTargets {
     GpuTexture gradient[2];     ///< RGBA32F, strata: reconstructed in turns; the result is the first
     GpuTexture strataGuides, strataSlope, lambda;
 
+    GpuTexture luminanceRange; ///< RGBA32F, tiles
     GpuTexture accumulated, control;
     GpuTexture filtered[2];
     GpuTexture composed; ///< RGBA32F: remodulated linear radiance

@@ -1,7 +1,8 @@
 #version 450 core
 
-// The mean of a sum of samples.
+// The mean of the samples of a reference, and how much one sample's luminance varies around it.
 
+#include "lib/color.glsl"
 #include "lib/fetch.glsl"
 #include "lib/frame.glsl"
 #include "shared/post_params.h"
@@ -11,12 +12,14 @@ layout(std140, binding = kPassBlock) uniform Params {
     MeanParams params;
 };
 
-Float4Texture(sum);
+Float4Texture(sum); // rgb: of the signal; a: of the square of its luminance
 writeonly uniform image2D mean;
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.size)))
         return;
-    imageStore(mean, p, vec4(fetch(sum, p).rgb * params.scale, 0.0));
+    vec4 moments = fetch(sum, p) * params.scale;
+    float l = luminance(moments.rgb);
+    imageStore(mean, p, vec4(moments.rgb, max(0.0, moments.a - l * l)));
 }
