@@ -38,6 +38,9 @@ const char* titleOf(Filter filter) {
     case Filter::Fixed: return "Fixed \xce\xb1";
     case Filter::Svgf: return "SVGF";
     case Filter::Asvgf: return "A-SVGF";
+    case Filter::Clamp: return "Clamp";
+    case Filter::Percentile: return "Percentile";
+    case Filter::Confidence: return "Confidence";
     }
     return "";
 }
@@ -75,9 +78,11 @@ void panelFilter(const PanelContext& panel) {
         return;
     ViewState& state = panel.state;
     const float gap = 0.3f * em();
-    const float width = shareOf(int(allFilters().size()), gap);
+    constexpr int kInRow = 4;
+    const float width = shareOf(kInRow, gap);
+    int place = 0;
     for (const Filter filter : allFilters()) {
-        if (filter != allFilters().front())
+        if (place++ % kInRow != 0)
             ImGui::SameLine(0.0f, gap);
         if (litButton(titleOf(filter), state.settings.filter == filter, width))
             chooseFilter(state, filter);

@@ -19,6 +19,7 @@ constexpr ImageDisplay kDisplays[] = {
     {"filtered", kMapRadiance, 0.0f, 1.0f, kRadiance},
     {"raw", kMapRadiance, 0.0f, 1.0f, kRadiance},
     {"accumulated", kMapRadiance, 0.0f, 1.0f, kRadiance},
+    {"history_luminance", kMapScalar, 0.0f, 1.0f, kRadiance},
     {"variance", kMapLogarithm, 1e-5f, 1.0f, "radiance squared"},
     {"albedo", kMapRadiance, 0.0f, 1.0f, ""},
     {"emission", kMapRadiance, 0.0f, 10.0f, kRadiance},

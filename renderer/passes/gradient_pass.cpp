@@ -5,10 +5,11 @@ namespace afterglow {
 GradientPass::GradientPass(ShaderLibrary& shaders)
     : program_(shaders.compute("denoise/gradient.comp")) {}
 
-void GradientPass::run(FrameContext& frame, const Inputs& in, const Outputs& out) {
+void GradientPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
+                       const gpu::GradientParams& params) {
     const auto scope = frame.timer.scope("gradient");
     program_.dispatch(
-        out.gradient.size(),
+        out.gradient.size(), params,
         {{"raw", in.raw}, {"samples", in.samples}, {"guides", in.guides}, {"slope", in.slope}},
         {{"gradient", out.gradient},
          {"strataGuides", out.strataGuides},

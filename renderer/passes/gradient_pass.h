@@ -23,7 +23,8 @@ public:
     };
 
     explicit GradientPass(ShaderLibrary& shaders);
-    void run(FrameContext& frame, const Inputs& in, const Outputs& out);
+    void run(FrameContext& frame, const Inputs& in, const Outputs& out,
+             const gpu::GradientParams& params);
 
 private:
     ComputeProgram& program_;

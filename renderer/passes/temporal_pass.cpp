@@ -19,7 +19,8 @@ void TemporalPass::run(FrameContext& frame, const Inputs& in, const Outputs& out
          {"motion", in.motion},
          {"previousColor", in.previousColor},
          {"previousMoments", in.previousMoments},
-         {"lambda", in.lambda}},
+         {"lambda", in.lambda},
+         {"luminanceRange", in.luminanceRange}},
         {{"accumulated", out.accumulated}, {"moments", out.moments}, {"control", out.control}});
 }
 

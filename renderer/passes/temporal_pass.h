@@ -7,7 +7,8 @@
 namespace afterglow {
 
 /// Back-projects the history and blends the new sample into it with an alpha per pixel.
-/// Schied et al. 2017, section 4.1; Schied et al. 2018, section 4.4.
+/// Schied et al. 2017, section 4.1; Schied et al. 2018, section 4.4; and what three competing
+/// filters do with a history instead.
 /// Reads FrameUniforms::historyValid. See shaders/denoise/temporal.comp and docs/pipeline.md.
 class TemporalPass {
 public:
@@ -21,7 +22,8 @@ public:
         const GpuTexture& motion;
         const GpuTexture& previousColor;
         const GpuTexture& previousMoments;
-        const GpuTexture& lambda; ///< per stratum; not used where params.useLambda is 0
+        const GpuTexture& lambda;         ///< per stratum; used with kLambdaFromGradient
+        const GpuTexture& luminanceRange; ///< per tile; used with kLambdaFromRange
     };
     struct Outputs {
         GpuTexture& accumulated;

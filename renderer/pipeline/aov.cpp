@@ -28,6 +28,9 @@ bool whereBlendIsKept(const DenoisePlan& plan) {
 bool whereAdaptive(const DenoisePlan& plan) {
     return plan.useLambda;
 }
+bool whereLambda(const DenoisePlan& plan) {
+    return plan.useLambda || plan.usePercentiles;
+}
 bool whereReconstructed(const DenoisePlan& plan) {
     return plan.useLambda && plan.gradientIterations > 0;
 }
@@ -54,6 +57,8 @@ const std::array kRows = std::to_array<Row>({
      [](R r) { return AovSource{r.targets().raw.current()}; }, always},
     {{"accumulated", "the signal after temporal and before spatial filtering, radiance", "RGB"},
      [](R r) { return AovSource{r.targets().accumulated}; }, whereBlendIsKept},
+    {{"history_luminance", "luminance of the history as fetched, 0 without one, radiance", "Y"},
+     [](R r) { return AovSource{r.targets().accumulated, 3}; }, whereBlendIsKept},
     {{"variance", "variance of the filtered signal's luminance, as estimated, radiance squared", "Y"},
      [](R r) { return AovSource{r.filteredSignal(), 3}; }, whereFiltered},
     {{"albedo", "diffuse reflectance of the surface, [0, 1]", "RGB"},
@@ -82,15 +87,15 @@ const std::array kRows = std::to_array<Row>({
       "instance, 4 depth, 5 normal", "Y"},
      [](R r) { return AovSource{r.targets().control, 3}; }, whereAccumulated},
     {{"lambda", "relative temporal change as fetched at the pixel, [0, 1]", "Y"},
-     [](R r) { return AovSource{r.targets().control}; }, whereAdaptive},
+     [](R r) { return AovSource{r.targets().control}; }, whereLambda},
     {{"lambda_strata", "relative temporal change per stratum of 3x3 pixels, [0, 1]", "Y", kPerStratum},
      [](R r) { return AovSource{r.targets().lambda}; }, whereAdaptive},
-    {{"gradient", "reconstructed change of luminance (delta) per stratum, radiance", "Y", kPerStratum},
+    {{"gradient", "reconstructed change of luminance (delta), or its size, per stratum, radiance", "Y", kPerStratum},
      [](R r) { return AovSource{r.targets().gradient[0]}; }, whereReconstructed},
     {{"gradient_max", "reconstructed larger luminance of the two frames (Delta) per stratum, radiance",
       "Y", kPerStratum},
      [](R r) { return AovSource{r.targets().gradient[0], 1}; }, whereReconstructed},
-    {{"gradient_sample", "change of luminance at each stratum's sample, as measured, radiance", "Y",
+    {{"gradient_sample", "change of luminance at each stratum's sample, or its size, as measured, radiance", "Y",
       kPerStratum},
      [](R r) { return AovSource{r.targets().gradientSamples}; }, whereAdaptive},
     {{"gradient_sample_max", "larger luminance of the two frames at each stratum's sample, radiance",

@@ -4,17 +4,52 @@
 
 namespace afterglow {
 
+namespace {
+
+/// A-SVGF as it is set.
+void addGradient(DenoisePlan& plan, const DenoiserSettings& settings) {
+    plan.carrySamples = plan.useLambda = true;
+    plan.cutHistory = settings.temporal.lambdaUse == gpu::kLambdaCuts;
+    plan.gradientIterations = settings.gradientIterations;
+    plan.gradientKernel = Kernel(settings.gradientKernel);
+    plan.gradientStridesLinear = settings.gradientStrides == gpu::kStridesLinear;
+    plan.gradientAbsolute = settings.gradient.magnitude == gpu::kGradientAbsolute;
+    plan.gradientLuminanceStop = settings.gradientLuminanceStop != 0;
+}
+
+/// The same gradient samples, used as NRD advises in its README on history confidence.
+void addConfidence(DenoisePlan& plan, const DenoiserSettings& settings) {
+    addGradient(plan, settings);
+    plan.cutHistory = true;
+    plan.gradientKernel = Kernel::B3Spline5x5;
+    plan.gradientStridesLinear = true;
+    plan.gradientAbsolute = true;
+    plan.gradientLuminanceStop = false;
+}
+
+} // namespace
+
 DenoisePlan makePlan(Filter filter, const DenoiserSettings& settings) {
-    const bool accumulate = filter != Filter::None;
-    const bool spatial = filter == Filter::Svgf || filter == Filter::Asvgf;
-    const bool adaptive = filter == Filter::Asvgf;
-    const int atrous = spatial ? settings.atrousIterations : 0;
-    return {.accumulate = accumulate,
-            .carrySamples = adaptive || settings.alwaysCarrySamples != 0,
-            .useLambda = adaptive,
-            .gradientIterations = adaptive ? settings.gradientIterations : 0,
-            .atrousIterations = atrous,
-            .feedbackIteration = std::min(settings.feedbackIteration, atrous)};
+    DenoisePlan plan;
+    plan.accumulate = filter != Filter::None;
+    plan.carrySamples = settings.alwaysCarrySamples != 0;
+    if (filter != Filter::None && filter != Filter::Fixed) {
+        plan.atrousIterations = settings.atrousIterations;
+        plan.feedbackIteration = std::min(settings.feedbackIteration, settings.atrousIterations);
+    }
+    switch (filter) {
+    case Filter::None:
+    case Filter::Fixed:
+    case Filter::Svgf: break;
+    case Filter::Asvgf: addGradient(plan, settings); break;
+    case Filter::Clamp: plan.clampHistory = true; break;
+    case Filter::Percentile:
+        plan.usePercentiles = true;
+        plan.cutHistory = settings.temporal.lambdaUse == gpu::kLambdaCuts;
+        break;
+    case Filter::Confidence: addConfidence(plan, settings); break;
+    }
+    return plan;
 }
 
 } // namespace afterglow

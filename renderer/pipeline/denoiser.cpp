@@ -4,8 +4,8 @@ namespace afterglow {
 
 Denoiser::Denoiser(ShaderLibrary& shaders)
     : forwardProject_(shaders), gradient_(shaders), gradientSpline_(shaders, Kernel::B3Spline5x5),
-      gradientBox_(shaders, Kernel::Box3x3), lambda_(shaders), temporal_(shaders),
-      variance_(shaders), atrousSpline_(shaders, Kernel::B3Spline5x5),
+      gradientBox_(shaders, Kernel::Box3x3), lambda_(shaders), luminanceRange_(shaders),
+      temporal_(shaders), variance_(shaders), atrousSpline_(shaders, Kernel::B3Spline5x5),
       atrousBox_(shaders, Kernel::Box3x3) {}
 
 void Denoiser::carrySamples(FrameContext& frame, const SceneGpu& scene, RenderTargets& t) {
@@ -18,6 +18,9 @@ const GpuTexture& Denoiser::run(FrameContext& frame, const DenoisePlan& plan, Re
                                 const DenoiserSettings& settings) {
     if (plan.useLambda)
         reconstructGradient(frame, plan, t, settings);
+    if (plan.usePercentiles)
+        luminanceRange_.run(frame, {t.raw.current(), t.guides.current()}, {t.luminanceRange},
+                            settings.percentiles);
     if (!plan.accumulate) {
         t.moments.current().clear(); // history lengths of 0: whoever comes next starts anew
         return t.raw.current();
@@ -28,31 +31,40 @@ const GpuTexture& Denoiser::run(FrameContext& frame, const DenoisePlan& plan, Re
 
 void Denoiser::reconstructGradient(FrameContext& frame, const DenoisePlan& plan, RenderTargets& t,
                                    const DenoiserSettings& settings) {
+    gpu::GradientParams params = settings.gradient;
+    params.magnitude = plan.gradientAbsolute ? gpu::kGradientAbsolute : gpu::kGradientSigned;
     gradient_.run(frame, {t.raw.current(), t.samples, t.guides.current(), t.slope},
-                  {t.gradientSamples, t.strataGuides, t.strataSlope});
+                  {t.gradientSamples, t.strataGuides, t.strataSlope}, params);
     GradientAtrousPass& atrous =
-        Kernel(settings.gradientKernel) == Kernel::B3Spline5x5 ? gradientSpline_ : gradientBox_;
+        plan.gradientKernel == Kernel::B3Spline5x5 ? gradientSpline_ : gradientBox_;
     gpu::EdgeStopping edges = settings.gradientEdges;
+    if (!plan.gradientLuminanceStop)
+        edges.sigmaLuminance = 0.0f;
     const GpuTexture* newest = &t.gradientSamples;
     for (int k = 0; k < plan.gradientIterations; ++k) {
-        edges.step = 1 << k;
-        GpuTexture& out = t.gradient[(plan.gradientIterations - 1 - k) % 2]; // the last is gradient[0]
+        edges.step = plan.gradientStridesLinear ? k + 1 : 1 << k;
+        GpuTexture& out =
+            t.gradient[(plan.gradientIterations - 1 - k) % 2]; // the last is gradient[0]
         atrous.run(frame, {*newest, t.strataGuides, t.strataSlope}, {out}, edges);
         newest = &out;
     }
-    lambda_.run(frame, {*newest}, {t.lambda}, settings.gradient);
+    lambda_.run(frame, {*newest}, {t.lambda}, params);
 }
 
 void Denoiser::accumulate(FrameContext& frame, const DenoisePlan& plan, RenderTargets& t,
                           const DenoiserSettings& settings) {
     gpu::TemporalParams params = settings.temporal;
-    params.useLambda = plan.useLambda ? 1 : 0;
+    params.lambdaSource = plan.useLambda        ? gpu::kLambdaFromGradient
+                          : plan.usePercentiles ? gpu::kLambdaFromRange
+                                                : gpu::kLambdaFromNothing;
+    params.lambdaUse = plan.cutHistory ? gpu::kLambdaCuts : gpu::kLambdaBlends;
+    params.clampRadius = plan.clampHistory ? settings.temporal.clampRadius : -1;
     // What is fed back unfiltered is the history as it leaves this pass.
     GpuTexture& accumulated = plan.feedbackIteration == 0 ? t.color.current() : t.accumulated;
     temporal_.run(frame,
                   {t.raw.current(), t.visibility.current(), t.visibility.previous(),
                    t.guides.current(), t.guides.previous(), t.slope, t.motion, t.color.previous(),
-                   t.moments.previous(), t.lambda},
+                   t.moments.previous(), t.lambda, t.luminanceRange},
                   {accumulated, t.moments.current(), t.control}, params);
 }
 

@@ -3,6 +3,7 @@
 #include "renderer/passes/atrous_pass.h"
 #include "renderer/passes/forward_project_pass.h"
 #include "renderer/passes/gradient_pass.h"
+#include "renderer/passes/luminance_range_pass.h"
 #include "renderer/passes/temporal_pass.h"
 #include "renderer/passes/variance_pass.h"
 #include "renderer/pipeline/denoise_plan.h"
@@ -36,6 +37,7 @@ private:
     GradientPass gradient_;
     GradientAtrousPass gradientSpline_, gradientBox_;
     LambdaPass lambda_;
+    LuminanceRangePass luminanceRange_;
     TemporalPass temporal_;
     VariancePass variance_;
     AtrousPass atrousSpline_, atrousBox_;

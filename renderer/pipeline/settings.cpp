@@ -15,16 +15,23 @@ namespace afterglow {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kFilterNames{"none", "fixed", "svgf", "asvgf"};
-constexpr std::array<Filter, 4> kFilters{Filter::None, Filter::Fixed, Filter::Svgf, Filter::Asvgf};
+constexpr std::array<std::string_view, 7> kFilterNames{"none",  "fixed",      "svgf",      "asvgf",
+                                                       "clamp", "percentile", "confidence"};
+constexpr std::array<Filter, 7> kFilters{Filter::None,      Filter::Fixed, Filter::Svgf,
+                                         Filter::Asvgf,     Filter::Clamp, Filter::Percentile,
+                                         Filter::Confidence};
 constexpr std::array<std::string_view, 3> kSignalNames{"shadows", "ao", "both"};
 constexpr std::array<std::string_view, 2> kKernelNames{"b3-5x5", "box-3x3"};
 constexpr std::array<std::string_view, 3> kLambdaFetchNames{"nearest", "bilinear", "max"};
 constexpr std::array<std::string_view, 3> kHistoryLawNames{"effective", "frames", "power"};
+constexpr std::array<std::string_view, 2> kLambdaUseNames{"blend", "confidence"};
+constexpr std::array<std::string_view, 2> kMagnitudeNames{"signed", "absolute"};
+constexpr std::array<std::string_view, 2> kStrideNames{"doubling", "linear"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 
 constexpr std::string_view kSvgf = "Schied et al. 2017";
 constexpr std::string_view kAsvgf = "Schied et al. 2018";
+constexpr std::string_view kMeasured = "own choice, by measurement";
 
 // Three or four lines a tunable. A test walks the table and the structs and fails when a member is
 // missing. clang-format would break it into one value a line.
@@ -56,6 +63,28 @@ const std::array kFields = std::to_array<Field>({
     {"temporal", "minHistory", "Shortest history for variance",
      "Below this the variance is estimated in space.",
      "frames", kSvgf, 1.0, 16.0, false, {}, AFTERGLOW_FIELD(denoiser.minHistory)},
+    {"temporal", "lambdaUse", "Lambda use",
+     "What lambda does: it blends alpha towards 1, or its complement squared is a confidence "
+     "that cuts the history length (NRD; always so in the filter confidence).",
+     "", kAsvgf, 0.0, 1.0, false, kLambdaUseNames, AFTERGLOW_FIELD(denoiser.temporal.lambdaUse)},
+    {"temporal", "clampSigmas", "Clamp",
+     "Filter clamp (Karis 2014, Salvi 2016): how far a history may be from the mean of the raw "
+     "signal around.",
+     "standard deviations", kMeasured, 0.1, 8.0, true, {},
+     AFTERGLOW_FIELD(denoiser.temporal.clampSigmas)},
+    {"temporal", "clampRadius", "Clamp radius",
+     "Filter clamp: the mean is taken over (2 r + 1)^2 pixels.",
+     "pixels", kMeasured, 0.0, 8.0, false, {}, AFTERGLOW_FIELD(denoiser.temporal.clampRadius)},
+    {"temporal", "lowPercentile", "Low percentile",
+     "Filter percentile (after merian): a history darker than this share of the raw pixels of "
+     "its 8x8 tile has changed.",
+     "", kMeasured, 0.0, 1.0, false, {}, AFTERGLOW_FIELD(denoiser.percentiles.lowPercentile)},
+    {"temporal", "highPercentile", "High percentile",
+     "Filter percentile: a history brighter than this share of them has changed.",
+     "", kMeasured, 0.0, 1.0, false, {}, AFTERGLOW_FIELD(denoiser.percentiles.highPercentile)},
+    {"temporal", "percentileSlope", "Percentile slope",
+     "Filter percentile: lambda for each width of the range that a history is outside of it.",
+     "", kMeasured, 0.05, 64.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.percentileSlope)},
 
     {"gradient", "gradientIterations", "Gradient iterations",
      "A-trous iterations of the reconstruction of the temporal gradient.",
@@ -63,6 +92,18 @@ const std::array kFields = std::to_array<Field>({
     {"gradient", "gradientKernel", "Gradient kernel",
      "Taps of each of these iterations.",
      "", kAsvgf, 0.0, 1.0, false, kKernelNames, AFTERGLOW_FIELD(denoiser.gradientKernel)},
+    {"gradient", "gradientStrides", "Gradient strides",
+     "Distance between taps from iteration to iteration: doubling, or one more each (NRD; "
+     "always so in the filter confidence).",
+     "", kAsvgf, 0.0, 1.0, false, kStrideNames, AFTERGLOW_FIELD(denoiser.gradientStrides)},
+    {"gradient", "gradientMagnitude", "Gradient magnitude",
+     "Whether noise of both signs cancels in the reconstruction, or each change counts by its "
+     "size (NRD; always so in the filter confidence).",
+     "", kAsvgf, 0.0, 1.0, false, kMagnitudeNames, AFTERGLOW_FIELD(denoiser.gradient.magnitude)},
+    {"gradient", "gradientLuminanceStop", "Luminance stop (gradient)",
+     "Whether the reconstruction stops at edges of luminance, or at those of geometry alone (NRD; "
+     "always so in the filter confidence).",
+     "", kAsvgf, 0.0, 1.0, false, kSwitchNames, AFTERGLOW_FIELD(denoiser.gradientLuminanceStop)},
     {"gradient", "lambdaFetch", "Lambda fetch",
      "How lambda, known per 3x3 stratum, is fetched at a pixel: of its stratum, bilinear, or"
      " the largest of the 3x3 strata around.",
@@ -188,6 +229,12 @@ std::string_view describe(Filter filter) {
                "2017)";
     case Filter::Asvgf:
         return "A-SVGF: SVGF with an alpha per pixel from temporal gradients (Schied et al. 2018)";
+    case Filter::Clamp:
+        return "SVGF whose history is clamped to the raw signal around (Karis 2014, Salvi 2016)";
+    case Filter::Percentile:
+        return "SVGF with an alpha per pixel from percentiles of the raw luminance (after merian)";
+    case Filter::Confidence:
+        return "A-SVGF whose gradients cut the history length (after history confidence in NRD)";
     }
     return {};
 }

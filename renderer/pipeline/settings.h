@@ -12,10 +12,11 @@
 
 namespace afterglow {
 
-enum class Filter { None, Fixed, Svgf, Asvgf };
+enum class Filter { None, Fixed, Svgf, Asvgf, Clamp, Percentile, Confidence };
 enum class Signal { Shadows, AmbientOcclusion, Both };
 
-/// The names on the command line and in files: none, fixed, svgf, asvgf; shadows, ao, both.
+/// The names on the command line and in files: none, fixed, svgf, asvgf, clamp, percentile,
+/// confidence; shadows, ao, both.
 std::string_view nameOf(Filter filter);
 std::string_view nameOf(Signal signal);
 std::string_view describe(Filter filter); ///< one sentence
@@ -32,9 +33,17 @@ struct DenoiserSettings {
                                  .normalTolerance = 0.9f,
                                  .lambdaFetch = gpu::kLambdaMax,
                                  .historyLaw = gpu::kHistoryEffective,
-                                 .useLambda = 0}; // set by the plan
-    gpu::GradientParams gradient{
-        .deltaFloor = 1e-4f, .forceLambda = -1.0f, .unused0 = 0.0f, .unused1 = 0.0f};
+                                 .lambdaSource = gpu::kLambdaFromNothing, // set by the plan
+                                 .lambdaUse = gpu::kLambdaBlends,
+                                 .percentileSlope = 4.0f,
+                                 .clampSigmas = 1.0f,
+                                 .clampRadius = 2};
+    gpu::PercentileParams percentiles{
+        .lowPercentile = 0.1f, .highPercentile = 0.9f, .unused0 = 0.0f, .unused1 = 0.0f};
+    gpu::GradientParams gradient{.deltaFloor = 1e-4f,
+                                 .forceLambda = -1.0f,
+                                 .magnitude = gpu::kGradientSigned,
+                                 .unused0 = 0.0f};
     gpu::EdgeStopping edges{
         .sigmaLuminance = 4.0f, .sigmaNormal = 128.0f, .sigmaDepth = 1.0f, .step = 1};
     gpu::EdgeStopping gradientEdges{
@@ -45,6 +54,8 @@ struct DenoiserSettings {
     int gradientIterations = 5;
     int kernel = int(Kernel::B3Spline5x5);
     int gradientKernel = int(Kernel::Box3x3);
+    int gradientStrides = gpu::kStridesDouble;
+    int gradientLuminanceStop = 1;
     int alwaysCarrySamples = 0; ///< gradient samples also where the filter does not use them
 };
 

@@ -6,8 +6,12 @@
 
 #include "lib/fetch.glsl"
 #include "shared/bindings.h"
+#include "shared/denoise_params.h"
 
 layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
+layout(std140, binding = kPassBlock) uniform Params {
+    GradientParams params;
+};
 
 Float4Texture(raw);    // a: luminance
 Uint4Texture(samples); // previous luminance, place in the stratum + 1
@@ -31,7 +35,9 @@ void main() {
         uint place = carried.y - 1u;
         float now = fetch(raw, first + ivec2(place % kStratumSize, place / kStratumSize)).a;
         float before = uintBitsToFloat(carried.x);
-        change = vec2(now - before, max(now, before));
+        float difference = now - before;
+        change = vec2(params.magnitude == kGradientAbsolute ? abs(difference) : difference,
+                      max(now, before));
     }
 
     float values[9];

@@ -45,7 +45,9 @@ void main() {
 
     vec2 centerSlope = fetch(strataSlope, s).xy;
     float luminanceScale =
-        1.0 / (params.sigmaLuminance * sqrt(max(smoothedVariance(s, last), 0.0)) + 1e-6);
+        params.sigmaLuminance == 0.0 // 0 stands for no luminance stop
+            ? 0.0
+            : 1.0 / (params.sigmaLuminance * sqrt(max(smoothedVariance(s, last), 0.0)) + 1e-6);
 
     vec3 sum = vec3(0.0);
     float varianceSum = 0.0, weightSum = 0.0;

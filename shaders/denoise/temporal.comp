@@ -4,7 +4,11 @@
 // Schied et al. 2017, section 4.1; Schied et al. 2018, section 4.4.
 // Departure: the history length is the effective number of samples, which falls with alpha; the
 // papers leave it as it is, and alpha then returns to its least value with a history of one sample.
+// Three competitors share this pass: a history clamped to its neighborhood (Karis 2014, Salvi
+// 2016), lambda from percentiles of one frame (merian), and lambda that cuts the history length
+// (NRD).
 
+#include "lib/color.glsl"
 #include "lib/fetch.glsl"
 #include "lib/frame.glsl"
 #include "shared/denoise_params.h"
@@ -23,9 +27,10 @@ Float2Texture(slope);
 Float4Texture(motion);
 Float4Texture(previousColor);
 Float4Texture(previousMoments);
-FloatTexture(lambda); // per stratum
+FloatTexture(lambda);          // per stratum
+Float4Texture(luminanceRange); // per tile: low, high, foreground pixels
 
-writeonly uniform image2D accumulated;
+writeonly uniform image2D accumulated; // a: luminance of the history before any clamp
 writeonly uniform image2D moments;
 writeonly uniform image2D control; // lambda, alpha, history length, reason
 
@@ -96,13 +101,57 @@ History fetchHistory(ivec2 p, vec3 normal) {
     return history;
 }
 
+// The history held to what the raw signal around makes plausible.
+vec3 clampToNeighborhood(vec3 color, ivec2 p) {
+    vec3 mean = vec3(0.0), squares = vec3(0.0); // Welford 1962: no difference of large sums
+    float count = 0.0;
+    // A loop that does not begin costs nothing; see variance.comp.
+    for (int y = -params.clampRadius; y <= params.clampRadius; ++y) {
+        for (int x = -params.clampRadius; x <= params.clampRadius; ++x) {
+            ivec2 q = p + ivec2(x, y);
+            if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
+                continue;
+            if (fetch(guides, q).w == 0.0)
+                continue;
+            vec3 value = fetch(raw, q).rgb;
+            vec3 off = value - mean;
+            count += 1.0;
+            mean += off / count;
+            squares += off * (value - mean);
+        }
+    }
+    vec3 reach = params.clampSigmas * sqrt(squares / max(count, 1.0));
+    return count == 0.0 ? color : clamp(color, mean - reach, mean + reach);
+}
+
+// How far a luminance is outside the percentiles of the raw signal around, in widths of their
+// range.
+float lambdaOfRange(ivec2 p, float historyLuminance) {
+    // Centers of tiles lie at 8 t + 4 in pixel coordinates. A tile counts by its foreground.
+    vec2 position = (vec2(p) + 0.5) / float(kTileSize) - 0.5;
+    ivec2 corner = ivec2(floor(position));
+    vec2 f = position - vec2(corner);
+    vec2 range = vec2(0.0);
+    float weightSum = 0.0;
+    int tiles = params.lambdaSource == kLambdaFromRange ? 4 : 0;
+    for (int i = 0; i < tiles; ++i) {
+        ivec2 place = ivec2(i & 1, i >> 1);
+        vec4 tile =
+            fetch(luminanceRange, clamp(corner + place, ivec2(0), sizeOf(luminanceRange) - 1));
+        float weight = (place.x == 1 ? f.x : 1.0 - f.x) * (place.y == 1 ? f.y : 1.0 - f.y) * tile.z;
+        range += weight * tile.xy;
+        weightSum += weight;
+    }
+    range /= max(weightSum, 1e-6);
+    float outside = max(0.0, max(range.x - historyLuminance, historyLuminance - range.y));
+    return min(1.0, params.percentileSlope * outside / (range.y - range.x + 1e-4));
+}
+
 float lambdaOf(ivec2 s) {
     return fetch(lambda, clamp(s, ivec2(0), frame.strata - 1)).x;
 }
 
-float lambdaAt(ivec2 p) {
-    if (params.useLambda == 0)
-        return 0.0;
+float lambdaOfStrata(ivec2 p) {
     ivec2 s = p / int(kStratumSize);
     if (params.lambdaFetch == kLambdaMax) {
         float largest = 0.0;
@@ -120,6 +169,14 @@ float lambdaAt(ivec2 p) {
                    mix(lambdaOf(corner + ivec2(0, 1)), lambdaOf(corner + ivec2(1, 1)), f.x), f.y);
     }
     return lambdaOf(s);
+}
+
+float lambdaAt(ivec2 p, bool hasHistory, float historyLuminance) {
+    if (params.lambdaSource == kLambdaFromGradient)
+        return lambdaOfStrata(p);
+    if (params.lambdaSource == kLambdaFromRange && hasHistory)
+        return lambdaOfRange(p, historyLuminance);
+    return 0.0;
 }
 
 float nextSamples(float samples, float alpha, float l) {
@@ -149,17 +206,28 @@ void main() {
     vec2 currentMoments = vec2(current.a, current.a * current.a);
     History history = fetchHistory(p, guide.xyz);
 
-    float l = lambdaAt(p);
+    bool hasHistory = history.samples > 0.0;
+    float historyLuminance = hasHistory ? luminance(history.color) : 0.0;
+    history.color = clampToNeighborhood(history.color, p);
+
+    float fetchedLambda = lambdaAt(p, hasHistory, historyLuminance);
+    float l = fetchedLambda;
+    if (params.lambdaUse == kLambdaCuts) {
+        float confidence = (1.0 - l) * (1.0 - l);
+        // mix(confidence, 1, 1 / (N + 1)), in a form that is exactly 1 for a confidence of 1.
+        history.samples *= confidence + (1.0 - confidence) / (history.samples + 1.0);
+        l = 0.0;
+    }
     float leastWeight = 1.0 / (history.samples + 1.0);
     float alpha = (1.0 - l) * max(params.alpha, leastWeight) + l;
     float alphaMoments = (1.0 - l) * max(params.alphaMoments, leastWeight) + l;
-    if (history.samples == 0.0)
+    if (!hasHistory)
         alpha = alphaMoments = 1.0;
 
     vec3 color = (1.0 - alpha) * history.color + alpha * current.rgb;
     vec2 blended = (1.0 - alphaMoments) * history.moments + alphaMoments * currentMoments;
     float samples = nextSamples(history.samples, alpha, l);
-    imageStore(accumulated, p, vec4(color, 0.0));
+    imageStore(accumulated, p, vec4(color, historyLuminance));
     imageStore(moments, p, vec4(blended, samples, 0.0));
-    imageStore(control, p, vec4(l, alpha, samples, float(history.reason)));
+    imageStore(control, p, vec4(fetchedLambda, alpha, samples, float(history.reason)));
 }

@@ -23,6 +23,15 @@ const int kHistoryEffective = 0; // 1/N' = (1 - a)^2 / N + a^2: the effective sa
 const int kHistoryFrames = 1;    // N' = N + 1: lambda is ignored, as in Q2VKPT
 const int kHistoryPower = 2;     // N' = N (1 - lambda)^10 + 1, as in Q2RTX
 
+// Where the lambda of a pixel comes from.
+const int kLambdaFromNothing = 0;  // 0 everywhere
+const int kLambdaFromGradient = 1; // of the strata, fetched as lambdaFetch says
+const int kLambdaFromRange = 2;    // how far the history is outside the raw luminance around
+
+// What lambda does.
+const int kLambdaBlends = 0; // alpha' = (1 - lambda) alpha + lambda; Schied et al. 2018
+const int kLambdaCuts = 1;   // the history length is cut, and alpha follows from it; as in NRD
+
 struct TemporalParams {
     float alpha;           // weight of the newest frame where nothing changed
     float alphaMoments;    // the same for the moments
@@ -31,13 +40,32 @@ struct TemporalParams {
     float normalTolerance; // least cosine between a surface's normals in two frames
     int lambdaFetch;
     int historyLaw;
-    int useLambda; // 0: lambda is 0 everywhere
+    int lambdaSource;
+    int lambdaUse;
+    float percentileSlope; // of lambda over the distance from the range, in widths of the range
+    float clampSigmas;     // standard deviations of the raw signal that a history may be off
+    int clampRadius;       // pixels around, in which they are measured; negative: no clamp
 };
+
+struct PercentileParams {
+    float lowPercentile; // both in [0, 1]
+    float highPercentile;
+    float unused0, unused1;
+};
+
+// What a gradient sample says.
+const int kGradientSigned = 0;
+const int kGradientAbsolute = 1;
+
+// Steps of the iterations that reconstruct the gradient.
+const int kStridesDouble = 0; // 1, 2, 4, ...: a-trous; Schied et al. 2018
+const int kStridesLinear = 1; // 1, 2, 3, ...: as in NRD
 
 struct GradientParams {
     float deltaFloor;  // where the filtered Delta is below it, lambda is 0; radiance
     float forceLambda; // in [0, 1]: this lambda everywhere; negative: measured
-    float unused0, unused1;
+    int magnitude;
+    float unused0;
 };
 
 struct VarianceParams {

@@ -27,7 +27,7 @@ struct GradientResult {
 };
 
 /// The gradient samples and the guides of the strata. Schied et al. 2018, section 4.2.
-inline GradientResult gradient(const GradientInputs& in) {
+inline GradientResult gradient(const GradientInputs& in, const gpu::GradientParams& params = {}) {
     const glm::ivec2 strata = strataOf(in.raw.size());
     const int edge = int(gpu::kStratumSize);
     GradientResult out{Image<glm::dvec4>(strata), Image<glm::vec4>(strata),
@@ -42,7 +42,8 @@ inline GradientResult gradient(const GradientInputs& in) {
                 const glm::ivec2 pixel = edge * s + glm::ivec2(landing % edge, landing / edge);
                 const double now = in.raw(pixel).a;
                 const double before = std::bit_cast<float>(std::uint32_t(sample.x));
-                out.gradient(s).x = now - before;
+                const bool sizeAlone = params.magnitude == gpu::kGradientAbsolute;
+                out.gradient(s).x = sizeAlone ? std::abs(now - before) : now - before;
                 out.gradient(s).y = std::max(now, before);
             }
 
@@ -75,12 +76,14 @@ inline GradientResult gradient(const GradientInputs& in) {
     return out;
 }
 
-/// One a-trous iteration over the strata. Schied et al. 2018, section 4.3.
+/// One a-trous iteration over the strata. Schied et al. 2018, section 4.3. A sigmaLuminance of 0
+/// stands for no luminance stop.
 inline Image<glm::dvec4> gradientAtrous(const Image<glm::vec4>& gradient,
                                         const Image<glm::vec4>& strataGuides,
                                         const Image<glm::vec2>& strataSlope, Kernel kernel,
                                         const gpu::EdgeStopping& params) {
-    const auto mean = [](const glm::vec4& g) { return double(g.z); };
+    const bool stops = params.sigmaLuminance > 0.0f;
+    const auto mean = [&](const glm::vec4& g) { return stops ? double(g.z) : 0.0; };
     return atrousIteration(gradient, strataGuides, strataSlope, kernel, params, mean,
                            int(gpu::kStratumSize));
 }

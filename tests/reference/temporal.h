@@ -1,7 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
+#include "renderer/image/color.h"
 #include "shared/bindings.h"
 #include "shared/denoise_params.h"
 #include "tests/reference/edge_stops.h"
@@ -20,6 +22,7 @@ struct TemporalInputs {
     const Image<glm::vec4>& previousMoments;
     const Image<float>& lambda;
     bool historyValid;
+    const Image<glm::vec4>* luminanceRange = nullptr; ///< needed with kLambdaFromRange
 };
 struct TemporalResult {
     Image<glm::dvec4> accumulated, moments, control;
@@ -117,6 +120,59 @@ inline double fetchLambda(const Image<float>& lambda, glm::ivec2 p, int fetch) {
                     glm::mix(at(corner + glm::ivec2(0, 1)), at(corner + 1), part.x), part.y);
 }
 
+/// Lambda from the distance between the luminance of the history and the range that the raw frame
+/// has in the tiles around pixel p.
+inline double rangeLambda(const Image<glm::vec4>& ranges, glm::ivec2 p, const History& history,
+                          double slope) {
+    if (history.length == 0.0)
+        return 0.0;
+    const int edge = int(gpu::kTileSize);
+    // Tile t has its center at 8 t + 4, pixel p at p + 1/2.
+    const glm::dvec2 position = (glm::dvec2(p) + 0.5 - 0.5 * edge) / double(edge);
+    const glm::ivec2 corner(glm::floor(position));
+    const glm::dvec2 part = position - glm::dvec2(corner);
+    double low = 0.0, high = 0.0, total = 0.0;
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) {
+            const glm::dvec4 range(
+                ranges(glm::clamp(corner + glm::ivec2(x, y), glm::ivec2(0), ranges.size() - 1)));
+            const double w = std::abs(1 - x - part.x) * std::abs(1 - y - part.y) * range.z;
+            low += w * range.x;
+            high += w * range.y;
+            total += w;
+        }
+    low /= total;
+    high /= total;
+    const double l = luminance(history.color);
+    const double outside = l < low ? low - l : l > high ? l - high : 0.0;
+    return std::min(1.0, slope * outside / (high - low + 1e-4));
+}
+
+/// The history color held within so many deviations of the raw signal around p. Karis 2014, Salvi
+/// 2016.
+inline glm::dvec3 clampHistory(const TemporalInputs& in, const gpu::TemporalParams& params,
+                               glm::ivec2 p, glm::dvec3 color) {
+    std::vector<glm::dvec3> around;
+    for (int y = -params.clampRadius; y <= params.clampRadius; ++y)
+        for (int x = -params.clampRadius; x <= params.clampRadius; ++x) {
+            const glm::ivec2 q = p + glm::ivec2(x, y);
+            if (in.raw.contains(q) && !isBackground(in.guides(q)))
+                around.push_back(glm::dvec3(in.raw(q)));
+        }
+    if (around.empty())
+        return color;
+    for (int channel = 0; channel < 3; ++channel) {
+        double mean = 0.0, variance = 0.0;
+        for (const glm::dvec3& value : around)
+            mean += value[channel] / double(around.size());
+        for (const glm::dvec3& value : around)
+            variance += (value[channel] - mean) * (value[channel] - mean) / double(around.size());
+        const double reach = double(params.clampSigmas) * std::sqrt(variance);
+        color[channel] = std::clamp(color[channel], mean - reach, mean + reach);
+    }
+    return color;
+}
+
 /// The history length after a frame was blended in with weight `alpha`.
 inline double nextLength(int law, double length, double alpha, double lambda) {
     if (length == 0.0)
@@ -139,22 +195,32 @@ inline TemporalResult temporal(const TemporalInputs& in, const gpu::TemporalPara
             if (isBackground(in.guides(p)))
                 continue;
             const History history = findHistory(in, params, p, out.margin);
-            const double lambda =
-                params.useLambda ? fetchLambda(in.lambda, p, params.lambdaFetch) : 0.0;
+            double lambda = 0.0;
+            if (params.lambdaSource == gpu::kLambdaFromGradient)
+                lambda = fetchLambda(in.lambda, p, params.lambdaFetch);
+            else if (params.lambdaSource == gpu::kLambdaFromRange)
+                lambda = rangeLambda(*in.luminanceRange, p, history, params.percentileSlope);
+
+            // Confidence shortens the history; otherwise lambda blends.
+            const bool cuts = params.lambdaUse == gpu::kLambdaCuts;
+            const double confidence = cuts ? (1.0 - lambda) * (1.0 - lambda) : 1.0;
+            const double kept =
+                history.length * glm::mix(confidence, 1.0, 1.0 / (1.0 + history.length));
+            const double blend = cuts ? 0.0 : lambda;
             const auto adapted = [&](double alpha) {
-                const double a = std::max(alpha, 1.0 / (history.length + 1.0));
-                return (1.0 - lambda) * a + lambda;
+                const double a = std::max(alpha, 1.0 / (kept + 1.0));
+                return (1.0 - blend) * a + blend;
             };
             const double alpha = adapted(params.alpha);
             const double alphaMoments = adapted(params.alphaMoments);
 
             const double l = in.raw(p).a;
             const glm::dvec2 moments = glm::mix(history.moments, {l, l * l}, alphaMoments);
-            const double length =
-                std::min(double(params.maxHistory),
-                         nextLength(params.historyLaw, history.length, alpha, lambda));
-            out.accumulated(p) =
-                glm::dvec4(glm::mix(history.color, glm::dvec3(in.raw(p)), alpha), 0.0);
+            const double length = std::min(double(params.maxHistory),
+                                           nextLength(params.historyLaw, kept, alpha, blend));
+            const glm::dvec3 color = clampHistory(in, params, p, history.color);
+            out.accumulated(p) = glm::dvec4(glm::mix(color, glm::dvec3(in.raw(p)), alpha),
+                                            history.length > 0.0 ? luminance(history.color) : 0.0);
             out.moments(p) = glm::dvec4(moments, length, 0.0);
             out.control(p) = glm::dvec4(lambda, alpha, length, history.reason);
         }

@@ -24,14 +24,32 @@ TEST_CASE("fetching by sampler and by image gives the same bits in every stage")
             each([&](ShaderLibrary& s) { return runAtrous(s, frame, kernel, edges); });
             each([&](ShaderLibrary& s) { return runGradientAtrous(s, frame, kernel, edges); });
         }
-        each([&](ShaderLibrary& s) { return runGradient(s, frame).gradient; });
-        each([&](ShaderLibrary& s) { return runGradient(s, frame).guides; });
+        const gpu::GradientParams gradient{1e-4f, -1.0f, gpu::kGradientAbsolute, 0.0f};
+        each([&](ShaderLibrary& s) { return runGradient(s, frame, gradient).gradient; });
+        each([&](ShaderLibrary& s) { return runGradient(s, frame, gradient).guides; });
         each([&](ShaderLibrary& s) { return runVariance(s, frame, {128.0f, 1.0f, 4.0f, 0.0f}); });
-        each([&](ShaderLibrary& s) { return runLambda(s, frame, {1e-4f, -1.0f, 0.0f, 0.0f}); });
-        const gpu::TemporalParams temporal{
-            0.1f, 0.2f, 64.0f, 2.0f, 0.9f, gpu::kLambdaBilinear, gpu::kHistoryEffective, 1};
-        each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).accumulated; });
-        each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).moments; });
-        each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).control; });
+        each([&](ShaderLibrary& s) { return runLambda(s, frame, gradient); });
+        each([&](ShaderLibrary& s) {
+            return runLuminanceRange(s, frame, {0.1f, 0.9f, 0.0f, 0.0f});
+        });
+        for (const int source : {gpu::kLambdaFromGradient, gpu::kLambdaFromRange}) {
+            const gpu::TemporalParams temporal{0.1f,
+                                               0.2f,
+                                               64.0f,
+                                               2.0f,
+                                               0.9f,
+                                               gpu::kLambdaBilinear,
+                                               gpu::kHistoryEffective,
+                                               source,
+                                               gpu::kLambdaCuts,
+                                               1.0f,
+                                               0.5f,
+                                               2};
+            each([&](ShaderLibrary& s) {
+                return runTemporal(s, frame, true, temporal).accumulated;
+            });
+            each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).moments; });
+            each([&](ShaderLibrary& s) { return runTemporal(s, frame, true, temporal).control; });
+        }
     }
 }

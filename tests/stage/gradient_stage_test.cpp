@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <utility>
 
 #include "tests/reference/gradient.h"
 #include "tests/stage/stage_runner.h"
@@ -29,9 +30,11 @@ TEST_CASE("gradient samples and the guides of strata follow the paper, at every 
             CAPTURE(size.y);
             CAPTURE(seed);
             const RandomFrame frame(size, seed);
-            const auto strata = runGradient(testShaders(), frame);
+            const gpu::GradientParams params{
+                1e-4f, -1.0f, seed % 2 == 0 ? gpu::kGradientSigned : gpu::kGradientAbsolute, 0.0f};
+            const auto strata = runGradient(testShaders(), frame, params);
             const auto expected =
-                reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope});
+                reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope}, params);
             CHECK_CLOSE(strata.gradient, expected.gradient, kTolerance);
             CHECK_CLOSE(strata.guides, expected.guides, kExact);
             CHECK_CLOSE(strata.slope, expected.slope, kExact);
@@ -43,7 +46,8 @@ TEST_CASE("gradient samples and the guides of strata follow the paper, at every 
 
 TEST_CASE("a sample that did not change has no gradient, bit for bit") {
     const RandomFrame frame({61, 37}, 7);
-    const auto strata = runGradient(testShaders(), frame);
+    const auto strata =
+        runGradient(testShaders(), frame, {1e-4f, -1.0f, gpu::kGradientSigned, 0.0f});
     int still = 0, changed = 0;
     for (int y = 0; y < frame.strata.y; ++y)
         for (int x = 0; x < frame.strata.x; ++x) {
@@ -65,16 +69,18 @@ TEST_CASE("a gradient a-trous iteration follows the paper, at every size, step a
     for (const glm::ivec2 size : kStageSizes)
         for (const std::uint32_t seed : {7u, 8u})
             for (const Kernel kernel : {Kernel::B3Spline5x5, Kernel::Box3x3})
-                for (const int step : {1, 2, 4, 8, 16})
-                    for (const float sigmaDepth : {1.0f, 20.0f}) {
+                for (const int step : {1, 2, 3, 4, 5, 8, 16})
+                    for (const auto& [sigmaLuminance, sigmaDepth] :
+                         {std::pair(4.0f, 1.0f), {4.0f, 20.0f}, {0.0f, 1.0f}}) {
                         CAPTURE(size.x);
                         CAPTURE(size.y);
                         CAPTURE(seed);
                         CAPTURE(int(kernel));
                         CAPTURE(step);
+                        CAPTURE(sigmaLuminance);
                         CAPTURE(sigmaDepth);
                         const RandomFrame frame(size, seed);
-                        const gpu::EdgeStopping params{4.0f, 128.0f, sigmaDepth, step};
+                        const gpu::EdgeStopping params{sigmaLuminance, 128.0f, sigmaDepth, step};
                         const auto filtered =
                             runGradientAtrous(testShaders(), frame, kernel, params);
                         const auto expected = reference::gradientAtrous(
@@ -91,12 +97,12 @@ TEST_CASE("lambda is the share that changed, 0 below the floor, or what it is fo
     for (const glm::ivec2 size : kStageSizes)
         for (const std::uint32_t seed : {7u, 8u})
             for (const gpu::GradientParams& params :
-                 {gpu::GradientParams{1e-4f, -1.0f, 0.0f, 0.0f},
-                  gpu::GradientParams{0.8f, -1.0f, 0.0f, 0.0f},
-                  gpu::GradientParams{0.0f, -1.0f, 0.0f, 0.0f},
-                  gpu::GradientParams{1e-4f, 0.0f, 0.0f, 0.0f},
-                  gpu::GradientParams{1e-4f, 0.3f, 0.0f, 0.0f},
-                  gpu::GradientParams{1e-4f, 1.0f, 0.0f, 0.0f}}) {
+                 {gpu::GradientParams{1e-4f, -1.0f, gpu::kGradientSigned, 0.0f},
+                  gpu::GradientParams{0.8f, -1.0f, gpu::kGradientSigned, 0.0f},
+                  gpu::GradientParams{0.0f, -1.0f, gpu::kGradientSigned, 0.0f},
+                  gpu::GradientParams{1e-4f, 0.0f, gpu::kGradientSigned, 0.0f},
+                  gpu::GradientParams{1e-4f, 0.3f, gpu::kGradientSigned, 0.0f},
+                  gpu::GradientParams{1e-4f, 1.0f, gpu::kGradientSigned, 0.0f}}) {
                 CAPTURE(size.x);
                 CAPTURE(size.y);
                 CAPTURE(seed);

@@ -1,18 +1,13 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <functional>
 #include <string>
-#include <vector>
 
 #include "tests/reference/atrous.h"
 #include "tests/reference/gradient.h"
 #include "tests/reference/temporal.h"
 #include "tests/reference/variance.h"
-#include "tests/stage/spoilt_shaders.h"
+#include "tests/stage/mutants.h"
 #include "tests/stage/stage_runner.h"
-#include "tests/support/compare.h"
-#include "tests/support/gl_fixture.h"
 
 // Would the stage tests notice? Each case plants one error in the text of a shader, runs the real
 // pass with it, and demands that the comparison with the reference fails by a clear margin.
@@ -22,27 +17,9 @@ using namespace afterglow::test;
 
 namespace {
 
-constexpr Tolerance kTolerance{.max = 3e-5, .relative = 3e-5}; // the widest of the stage tests
-constexpr double kClearMargin = 1e-2; // more than three hundred times the tolerance
-
-/// The largest difference of anything compared; infinite where it is not a number.
-struct Verdict {
-    bool close = true;
-    double largest = 0.0;
-
-    template <class Actual, class Expected>
-    void add(const Actual& actual, const Expected& expected) {
-        const Comparison comparison = compare(actual, expected, kTolerance);
-        close = close && comparison.close;
-        largest = std::max(largest, comparison.largest);
-    }
-};
-
 /// Usual ones, and some so wide that only the depth 0 of background keeps it out.
 const gpu::EdgeStopping kEdges[] = {
     {4.0f, 128.0f, 1.0f, 1}, {4.0f, 128.0f, 1.0f, 4}, {100.0f, 1.0f, 20.0f, 4}};
-
-using Measure = std::function<Verdict(ShaderLibrary&)>;
 
 Verdict measureAtrous(ShaderLibrary& shaders) {
     Verdict verdict;
@@ -63,7 +40,18 @@ Verdict measureTemporal(ShaderLibrary& shaders) {
                  {gpu::kHistoryEffective, gpu::kHistoryFrames, gpu::kHistoryPower}) {
                 const RandomFrame frame({61, 37}, seed);
                 const float maxHistory = law == gpu::kHistoryFrames ? 6.0f : 64.0f;
-                const gpu::TemporalParams params{0.1f, 0.2f, maxHistory, 1.0f, 0.9f, fetch, law, 1};
+                const gpu::TemporalParams params{0.1f,
+                                                 0.2f,
+                                                 maxHistory,
+                                                 1.0f,
+                                                 0.9f,
+                                                 fetch,
+                                                 law,
+                                                 gpu::kLambdaFromGradient,
+                                                 gpu::kLambdaBlends,
+                                                 1.0f,
+                                                 1.0f,
+                                                 -1};
                 const auto images = runTemporal(shaders, frame, true, params);
                 const auto expected = reference::temporal(
                     {frame.raw, frame.visibility, frame.previousVisibility, frame.guides,
@@ -91,9 +79,10 @@ Verdict measureVariance(ShaderLibrary& shaders) {
 Verdict measureGradient(ShaderLibrary& shaders) {
     Verdict verdict;
     const RandomFrame frame({61, 37}, 21);
-    const auto strata = runGradient(shaders, frame);
+    const gpu::GradientParams params{1e-4f, -1.0f, gpu::kGradientSigned, 0.0f};
+    const auto strata = runGradient(shaders, frame, params);
     const auto expected =
-        reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope});
+        reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope}, params);
     verdict.add(strata.gradient, expected.gradient);
     verdict.add(strata.guides, expected.guides);
     verdict.add(strata.slope, expected.slope);
@@ -117,38 +106,10 @@ Verdict measureLambda(ShaderLibrary& shaders) {
     RandomFrame frame({61, 37}, 21);
     frame.gradient({0, 0}) = glm::vec4(0.5f, 0.8f, 0.0f, 0.0f); // on the floor
     for (const float forced : {-1.0f, 0.0f, 0.3f}) {
-        const gpu::GradientParams params{0.8f, forced, 0.0f, 0.0f};
+        const gpu::GradientParams params{0.8f, forced, gpu::kGradientSigned, 0.0f};
         verdict.add(runLambda(shaders, frame, params), reference::lambda(frame.gradient, params));
     }
     return verdict;
-}
-
-/// An error that somebody might make.
-struct Mutant {
-    std::string what;
-    std::string file;
-    std::string from; ///< stands in the file once
-    std::string to;
-    double margin = kClearMargin; ///< the least difference that must show
-};
-
-void checkMutants(const Measure& measure, const std::vector<Mutant>& mutants) {
-    SpoiltShaders shaders;
-    {
-        ShaderLibrary unchanged = shaders.library();
-        REQUIRE(measure(unchanged).close);
-    }
-    for (const Mutant& mutant : mutants) {
-        CAPTURE(mutant.what);
-        const int found = shaders.spoil(mutant.file, mutant.from, mutant.to);
-        CHECK_MESSAGE(found == 1, mutant.file, " has ", found, " times: ", mutant.from);
-        ShaderLibrary library = shaders.library();
-        const Verdict verdict = measure(library);
-        MESSAGE(mutant.what, ": ", verdict.largest);
-        CHECK(!verdict.close);
-        CHECK(verdict.largest > mutant.margin);
-        shaders.mend(mutant.file);
-    }
 }
 
 } // namespace
@@ -219,6 +180,10 @@ TEST_CASE("errors planted in the temporal accumulation do not pass") {
          {"a frame too many", file, "next = samples + 1.0", "next = samples + 2.0"},
          {"power of the third law", file, "pow(1.0 - l, 10.0)", "pow(1.0 - l, 8.0)"},
          {"no limit to the length", file, "min(next, params.maxHistory)", "next"},
+         {"luminance of the raw signal for that of the history", file, "luminance(history.color)",
+          "luminance(current.rgb)"},
+         {"luminance of a history that nobody has", file,
+          "hasHistory ? luminance(history.color) : 0.0", "luminance(history.color)"},
          {"second moment of the mean", file, "current.a * current.a", "current.a"}});
 }
 
@@ -247,6 +212,7 @@ TEST_CASE("errors planted in the gradient samples do not pass") {
         {{"the smaller for the larger", file, "max(now, before)", "min(now, before)"},
          {"delta with the wrong sign", file, "now - before", "before - now"},
          {"delta without its sign", file, "now - before", "abs(now - before)"},
+         {"magnitude exchanged", file, "== kGradientAbsolute", "!= kGradientAbsolute"},
          {"x and y of the place exchanged", file, "place % kStratumSize, place / kStratumSize",
           "place / kStratumSize, place % kStratumSize"},
          {"place off by one", file, "carried.y - 1u", "carried.y % 9u"},

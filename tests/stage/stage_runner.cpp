@@ -5,10 +5,12 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/passes/atrous_pass.h"
 #include "renderer/passes/gradient_pass.h"
+#include "renderer/passes/luminance_range_pass.h"
 #include "renderer/passes/temporal_pass.h"
 #include "renderer/passes/variance_pass.h"
 #include "shared/bindings.h"
 #include "shared/frame.h"
+#include "tests/reference/luminance_range.h"
 
 namespace afterglow::test {
 namespace {
@@ -76,6 +78,18 @@ Image<glm::vec4> runAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Ker
     return filtered.read<glm::vec4>();
 }
 
+Image<glm::vec4> luminanceRanges(const RandomFrame& frame) {
+    const Image<glm::dvec4> exact =
+        reference::luminanceRange(frame.raw, frame.guides, {0.3f, 0.7f, 0.0f, 0.0f});
+    Image<glm::vec4> ranges(exact.size());
+    for (std::size_t i = 0; i < ranges.pixels().size(); ++i) {
+        const glm::dvec4& range = exact.pixels()[i];
+        ranges.pixels()[i] =
+            range.z == 0.0 ? glm::vec4(50.0f, 70.0f, 0.0f, 0.0f) : glm::vec4(range);
+    }
+    return ranges;
+}
+
 TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, bool historyValid,
                            const gpu::TemporalParams& params) {
     const FrameBlock block(frame, historyValid);
@@ -91,6 +105,7 @@ TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, boo
     const GpuTexture previousColor = upload("previous color", frame.previousColor);
     const GpuTexture previousMoments = upload("previous moments", frame.previousMoments);
     const GpuTexture lambda = upload("lambda", frame.lambda);
+    const GpuTexture luminanceRange = upload("luminance range", luminanceRanges(frame));
     GpuTexture accumulated = output<glm::vec4>("accumulated", frame.size);
     GpuTexture moments = output<glm::vec4>("moments", frame.size);
     GpuTexture control = output<glm::vec4>("control", frame.size);
@@ -104,9 +119,22 @@ TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, boo
                                .motion = motion,
                                .previousColor = previousColor,
                                .previousMoments = previousMoments,
-                               .lambda = lambda},
+                               .lambda = lambda,
+                               .luminanceRange = luminanceRange},
                               {accumulated, moments, control}, params);
     return {accumulated.read<glm::vec4>(), moments.read<glm::vec4>(), control.read<glm::vec4>()};
+}
+
+Image<glm::vec4> runLuminanceRange(ShaderLibrary& shaders, const RandomFrame& frame,
+                                   const gpu::PercentileParams& params) {
+    const FrameBlock block(frame, true);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    const GpuTexture raw = upload("raw", frame.raw);
+    const GpuTexture guides = upload("guides", frame.guides);
+    GpuTexture range = output<glm::vec4>("luminance range", luminanceRanges(frame).size());
+    LuminanceRangePass(shaders).run(context, {raw, guides}, {range}, params);
+    return range.read<glm::vec4>();
 }
 
 Image<glm::vec4> runVariance(ShaderLibrary& shaders, const RandomFrame& frame,
@@ -123,7 +151,8 @@ Image<glm::vec4> runVariance(ShaderLibrary& shaders, const RandomFrame& frame,
     return filtered.read<glm::vec4>();
 }
 
-GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame) {
+GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame,
+                           const gpu::GradientParams& params) {
     const FrameBlock block(frame, true);
     GpuTimer timer(true);
     FrameContext context{timer};
@@ -135,7 +164,7 @@ GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame) {
     GpuTexture strataGuides = output<glm::vec4>("strata guides", frame.strata);
     GpuTexture strataSlope = output<glm::vec2>("strata slope", frame.strata);
     GradientPass(shaders).run(context, {raw, samples, guides, slope},
-                              {gradient, strataGuides, strataSlope});
+                              {gradient, strataGuides, strataSlope}, params);
     return {gradient.read<glm::vec4>(), strataGuides.read<glm::vec4>(),
             strataSlope.read<glm::vec2>()};
 }

@@ -19,8 +19,15 @@ Image<glm::vec4> runAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Ker
 struct TemporalImages {
     Image<glm::vec4> accumulated, moments, control;
 };
+/// Ranges for runTemporal(), about as wide as the noise of the frame; garbage in tiles that show
+/// background alone.
+Image<glm::vec4> luminanceRanges(const RandomFrame& frame);
+
 TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, bool historyValid,
                            const gpu::TemporalParams& params);
+
+Image<glm::vec4> runLuminanceRange(ShaderLibrary& shaders, const RandomFrame& frame,
+                                   const gpu::PercentileParams& params);
 
 Image<glm::vec4> runVariance(ShaderLibrary& shaders, const RandomFrame& frame,
                              const gpu::VarianceParams& params);
@@ -29,7 +36,8 @@ struct GradientImages {
     Image<glm::vec4> gradient, guides;
     Image<glm::vec2> slope;
 };
-GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame);
+GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame,
+                           const gpu::GradientParams& params);
 
 Image<glm::vec4> runGradientAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
                                    const gpu::EdgeStopping& params);

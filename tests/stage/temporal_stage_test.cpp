@@ -21,14 +21,19 @@ const gpu::TemporalParams kParams{.alpha = 0.1f,
                                   .normalTolerance = 0.9f,
                                   .lambdaFetch = gpu::kLambdaBilinear,
                                   .historyLaw = gpu::kHistoryEffective,
-                                  .useLambda = 1};
+                                  .lambdaSource = gpu::kLambdaFromGradient,
+                                  .lambdaUse = gpu::kLambdaBlends,
+                                  .percentileSlope = 1.0f,
+                                  .clampSigmas = 1.0f,
+                                  .clampRadius = -1};
 
 reference::TemporalResult expect(const RandomFrame& frame, bool historyValid,
                                  const gpu::TemporalParams& params) {
+    const Image<glm::vec4> ranges = luminanceRanges(frame);
     return reference::temporal({frame.raw, frame.visibility, frame.previousVisibility, frame.guides,
                                 frame.previousGuides, frame.slope, frame.motion,
                                 frame.previousColor, frame.previousMoments, frame.lambda,
-                                historyValid},
+                                historyValid, &ranges},
                                params);
 }
 
@@ -94,11 +99,11 @@ TEST_CASE("temporal accumulation follows the papers, for tight and loose paramet
 TEST_CASE("without lambda only alpha counts, without a previous frame only the new one") {
     glm::dvec2 largest(0.0);
     for (const bool historyValid : {false, true})
-        for (const int useLambda : {0, 1}) {
+        for (const int source : {gpu::kLambdaFromNothing, gpu::kLambdaFromGradient}) {
             CAPTURE(historyValid);
-            CAPTURE(useLambda);
+            CAPTURE(source);
             gpu::TemporalParams params = kParams;
-            params.useLambda = useLambda;
+            params.lambdaSource = source;
             largest =
                 glm::max(largest, checkTemporal(RandomFrame({61, 37}, 12), historyValid, params));
         }

@@ -21,13 +21,17 @@ const gpu::TemporalParams kTemporal{.alpha = 0.1f,
                                     .normalTolerance = 0.9f,
                                     .lambdaFetch = gpu::kLambdaNearest,
                                     .historyLaw = gpu::kHistoryEffective,
-                                    .useLambda = 1};
+                                    .lambdaSource = gpu::kLambdaFromGradient,
+                                    .lambdaUse = gpu::kLambdaBlends,
+                                    .percentileSlope = 1.0f,
+                                    .clampSigmas = 1.0f,
+                                    .clampRadius = -1};
 
 const gpu::VarianceParams kVariance{
     .sigmaNormal = 128.0f, .sigmaDepth = 1.0f, .minHistory = 4.0f, .unused0 = 0.0f};
 
 gpu::GradientParams gradientParams(float deltaFloor, float forceLambda) {
-    return {deltaFloor, forceLambda, 0.0f, 0.0f};
+    return {deltaFloor, forceLambda, gpu::kGradientSigned, 0.0f};
 }
 
 constexpr Kernel kKernels[] = {Kernel::B3Spline5x5, Kernel::Box3x3};
@@ -265,7 +269,8 @@ TEST_CASE("a still scene has no gradient and no lambda, after any number of iter
                 const glm::ivec2 p = 3 * glm::ivec2(x, y) + glm::ivec2(landing % 3, landing / 3);
                 sample.x = std::bit_cast<std::uint32_t>(frame.raw(p).a);
             }
-    const auto strata = reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope});
+    const auto strata = reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope},
+                                            gradientParams(1e-4f, -1.0f));
     Image<glm::vec4> gradient = toFloat(strata.gradient);
     for (const int step : {1, 2, 4, 8, 16}) {
         gpu::EdgeStopping params = kSvgf;

@@ -24,11 +24,12 @@ TEST_CASE("the field table names every member of the settings once") {
     }
     // Not for a slider: chosen by name, set by the plan or by the pass, or padding.
     cover(&settings.filter);
-    cover(&settings.denoiser.temporal.useLambda);
+    cover(&settings.denoiser.temporal.lambdaSource);
+    cover(&settings.denoiser.percentiles.unused0);
+    cover(&settings.denoiser.percentiles.unused1);
     cover(&settings.denoiser.edges.step);
     cover(&settings.denoiser.gradientEdges.step);
     cover(&settings.denoiser.gradient.unused0);
-    cover(&settings.denoiser.gradient.unused1);
     for (std::ptrdiff_t offset = 0; offset < std::ptrdiff_t(sizeof(Settings)); offset += 4) {
         CAPTURE(offset);
         CHECK(covered.contains(offset));
@@ -105,7 +106,40 @@ TEST_CASE("filters differ in the rows of one plan") {
     DenoisePlan adaptive = svgf;
     adaptive.carrySamples = adaptive.useLambda = true;
     adaptive.gradientIterations = 5;
+    adaptive.gradientKernel = Kernel::Box3x3;
+    adaptive.gradientLuminanceStop = true;
     CHECK(asvgf == adaptive);
+
+    DenoisePlan clamp = svgf, percentile = svgf, confidence = asvgf;
+    clamp.clampHistory = true;
+    CHECK(makePlan(Filter::Clamp, settings) == clamp);
+    percentile.usePercentiles = true;
+    CHECK(makePlan(Filter::Percentile, settings) == percentile);
+    confidence.cutHistory = confidence.gradientAbsolute = true;
+    confidence.gradientStridesLinear = true;
+    confidence.gradientLuminanceStop = false;
+    confidence.gradientKernel = Kernel::B3Spline5x5;
+    CHECK(makePlan(Filter::Confidence, settings) == confidence);
+}
+
+TEST_CASE("every filter has a name of its own, a sentence, and a place in the list") {
+    std::set<std::string_view> names;
+    for (const Filter filter : allFilters()) {
+        CHECK(names.insert(nameOf(filter)).second);
+        CHECK(filterFromName(nameOf(filter)) == filter);
+        CHECK_FALSE(describe(filter).empty());
+        CHECK(allFilters()[std::size_t(filter)] == filter);
+    }
+}
+
+TEST_CASE("what confidence does differently can be set for A-SVGF, piece by piece") {
+    DenoiserSettings settings;
+    settings.temporal.lambdaUse = gpu::kLambdaCuts;
+    settings.gradient.magnitude = gpu::kGradientAbsolute;
+    settings.gradientStrides = gpu::kStridesLinear;
+    settings.gradientLuminanceStop = 0;
+    settings.gradientKernel = int(Kernel::B3Spline5x5);
+    CHECK(makePlan(Filter::Asvgf, settings) == makePlan(Filter::Confidence, DenoiserSettings{}));
 }
 
 TEST_CASE("what is fed back is never later than the last iteration") {
