@@ -16,7 +16,7 @@ set(pipeline_may "base;image;scene;bvh;gl;resources;passes;pipeline")
 set(foreign
     "tiny_gltf.h|renderer/scene/"
     "stb/|renderer/image/|app/experiment/"
-    "stb_|renderer/image/|app/experiment/"
+    "stb_|renderer/image/|app/experiment/|app/report/"
     "tinyexr.h|renderer/image/"
     "GL/osmesa.h|renderer/gl/context_osmesa.cpp"
     "EGL/|renderer/gl/context_egl.cpp"

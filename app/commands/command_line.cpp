@@ -2,7 +2,10 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/command_words.h"
+#include "app/commands/exchange_words.h"
+#include "app/commands/experiment_words.h"
 #include "app/commands/list.h"
+#include "app/experiment/interrupt.h"
 #include "app/experiment/output.h"
 #include "renderer/base/error.h"
 
@@ -21,6 +24,10 @@ struct Words {
     RenderWords render;
     ViewWords view;
     ExperimentWords experiment;
+    SweepWords sweep;
+    MergeWords merge;
+    ReportWords report;
+    ImportWords import;
     BenchWords bench;
 };
 
@@ -65,10 +72,21 @@ void refuseExtras(CLI::App& app) {
 
 int dispatch(CLI::App& app, const Words& words, const WindowFunctions& window) {
     const std::string command = chosen(app) ? chosen(app)->get_name() : "";
-    if (command == "render") {
+    if (command == "render" && words.render.exports) {
+        runExportCommand(words.render.parseExport(), window.hiddenContext);
+    } else if (command == "render") {
         runRender(words.render.parse(), window.hiddenContext);
     } else if (command == "experiment") {
         runExperimentCommand(words.experiment.parse(), window.hiddenContext);
+    } else if (command == "sweep") {
+        runSweepCommand(words.sweep.experiment.parse(), words.sweep.parseSweep(),
+                        window.hiddenContext);
+    } else if (command == "merge") {
+        runMergeCommand({words.merge.parts.begin(), words.merge.parts.end()}, *words.merge.out);
+    } else if (command == "report") {
+        runReportCommand(*words.report.folder);
+    } else if (command == "import-frames") {
+        runImportCommand(words.import.parse(), window.hiddenContext);
     } else if (command == "bench") {
         runBench(words.bench.parse(), window.hiddenContext);
     } else if (command == "list") {
@@ -79,8 +97,8 @@ int dispatch(CLI::App& app, const Words& words, const WindowFunctions& window) {
             throw ContextError("this build has no window");
         return window.view(options);
     } else {
-        throw UsageError("a command is missing: view, render, experiment, bench or list; see "
-                         "afterglow --help");
+        throw UsageError("a command is missing: view, render, experiment, sweep, merge, report, "
+                         "import-frames, bench or list; see afterglow --help");
     }
     return kDone;
 }
@@ -110,6 +128,12 @@ int parseAndRun(int argc, const char* const* argv, const WindowFunctions& window
     words.render.addTo(command("render", "Renders frames into files"));
     words.experiment.addTo(
         command("experiment", "Compares filters while something changes, and measures them"));
+    words.sweep.addTo(
+        command("sweep", "Runs an experiment for each value of a setting: noise against lag"));
+    words.merge.addTo(command("merge", "Puts the parts of a run together"));
+    words.report.addTo(command("report", "Makes the page of a run anew"));
+    words.import.addTo(
+        command("import-frames", "Scores the frames of another denoiser beside our filters"));
     words.bench.addTo(command("bench", "Measures how long frames and passes take"));
     CLI::App& list = command("list", "Tells what there is to choose from");
     addOption(list, "WHAT", words.kind, "", listed(listKinds()))->required();
@@ -145,6 +169,8 @@ int runCommandLine(int argc, const char* const* argv, const WindowFunctions& win
         return fail(kBadInput, error.what());
     } catch (const ContextError& error) {
         return fail(kNoContext, error.what());
+    } catch (const Interrupted& interrupted) {
+        return fail(kInterrupted, interrupted.what());
     } catch (const std::bad_alloc&) {
         return fail(kFailed, "out of memory");
     } catch (const std::exception& error) {

@@ -12,7 +12,14 @@ struct WindowFunctions {
 };
 
 /// The exit codes of the program.
-enum ExitCode { kDone = 0, kFailed = 1, kWrongUsage = 2, kBadInput = 3, kNoContext = 4 };
+enum ExitCode {
+    kDone = 0,
+    kFailed = 1,
+    kWrongUsage = 2,
+    kBadInput = 3,
+    kNoContext = 4,
+    kInterrupted = 130 ///< as shells report a program that Ctrl-C ended
+};
 
 /// The whole program: parses the words, runs the subcommand, and turns whatever goes wrong into one
 /// line on standard error and an exit code.

@@ -1,5 +1,7 @@
 #include "app/commands/command_words.h"
 
+#include "app/experiment/presets.h"
+
 #include "app/commands/arguments.h"
 #include "renderer/base/error.h"
 
@@ -7,7 +9,7 @@ namespace afterglow {
 
 const std::string kExitCodes =
     "Exit codes: 0 done, 2 wrong usage, 3 bad input file, 4 no OpenGL 4.5 context to be had, "
-    "1 anything else.";
+    "130 interrupted, 1 anything else.";
 
 namespace {
 
@@ -24,6 +26,14 @@ CLI::Option* addOption(CLI::App& app, const std::string& name, Texts& texts, con
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+std::string floatFormat(const Text& format) {
+    if (!format)
+        return "png";
+    if (*format != "png" && *format != "exr" && *format != "pfm")
+        throw UsageError("--format: " + unknownName("format", *format, {"png", "exr", "pfm"}));
+    return *format;
+}
+
 } // namespace
 
 CLI::Option* addOption(CLI::App& app, const std::string& name, Text& text, const char* type,
@@ -38,7 +48,8 @@ void PictureWords::addSettings(CLI::App& app) {
 }
 
 void PictureWords::addFilter(CLI::App& app) {
-    addOption(app, "--filter", filter, "NAME", "none, fixed, svgf or asvgf [asvgf]");
+    addOption(app, "--filter", filter, "NAME",
+              "A filter or a preset; afterglow list filters, presets [asvgf]");
 }
 
 void PictureWords::addSeed(CLI::App& app) {
@@ -52,7 +63,7 @@ void PictureWords::addContext(CLI::App& app) {
 Settings PictureWords::toSettings() const {
     Settings result;
     if (filter)
-        result.filter = filterFromName(*filter);
+        result = settingsOf(variantNamed(*filter), Signal::Both);
     if (signal)
         result.lighting.signal = int(signalFromName(*signal));
     for (const std::string& text : settings) {
@@ -78,7 +89,9 @@ ContextChoice PictureWords::toContext() const {
 }
 
 void RenderWords::addTo(CLI::App& app) {
-    addOption(app, "SCENE", scene, "", "A name (afterglow list scenes), or a .gltf or .glb file")
+    addOption(app, "SCENE", scene, "",
+              "A name (afterglow list scenes), or a .gltf or .glb file; with --export also an "
+              "experiment's name or .json file")
         ->required();
     addOption(app, "--out,-o", out, "DIR", "Folder of the results; made if it is missing")
         ->required();
@@ -111,16 +124,50 @@ void RenderWords::addTo(CLI::App& app) {
         ->excludes(everyOption)
         ->excludes(lastFlag)
         ->excludes(animateFlag);
+    CLI::Option* exportFlag = app.add_flag(
+        "--export", exports,
+        "For another denoiser: the noisy frames (--filter none) with all it needs, as floats");
+    for (const char* other : {"--spp", "--every", "--last", "--set"})
+        exportFlag->excludes(app.get_option(other));
     app.footer(
-        "Writes DIR/color_0000.png, ..., DIR/<aov>_0000.exr, ... and, last, DIR/run.json.\n\n"
+        "Writes DIR/color_0000.png, ..., DIR/<aov>_0000.exr, ... and, last, DIR/run.json.\n"
+        "With --export: raw, albedo, emission, normal, depth, motion and previous_depth of every\n"
+        "frame and, last, DIR/export.json, for afterglow import-frames.\n\n"
         "Examples:\n"
         "  afterglow render cornell --out out/cornell\n"
         "  afterglow render hall --frames 64 --light key=off@32 --aov lambda,history --out "
         "out/hall\n"
         "  afterglow render cornell --filter none --spp 1024 --out out/reference\n"
         "  afterglow render my.glb --size 1280x720 --animate --camera Front --last --out "
-        "out/my\n\n" +
+        "out/my\n"
+        "  afterglow render light-off --export --out out/noise\n\n" +
         kExitCodes);
+}
+
+ExportOptions RenderWords::parseExport() const {
+    if (picture.filter && filterFromName(*picture.filter) != Filter::None)
+        throw UsageError("--filter " + *picture.filter + ": --export stands for --filter none");
+    ExportOptions options;
+    options.source = *scene;
+    if (picture.size)
+        options.size = parseSize("--size", *picture.size);
+    if (picture.frames)
+        options.frames = int(parseWhole("--frames", *picture.frames, 1, kMostFrames));
+    if (picture.seed)
+        options.seed = picture.toSeed();
+    options.camera = picture.camera.value_or("");
+    options.lights = picture.toLightChanges();
+    if (picture.signal)
+        options.signal = signalFromName(*picture.signal);
+    if (rate)
+        options.rate = parseNumber("--rate", *rate, 1e-3, 1e3); // what an experiment can have
+    options.animate = animate;
+    if (aovs)
+        options.aovs = parseList("--aov", *aovs);
+    options.format = floatFormat(format) == "pfm" ? "pfm" : "exr";
+    options.context = picture.toContext();
+    options.out = *out;
+    return options;
 }
 
 RenderOptions RenderWords::parse() const {
@@ -137,11 +184,7 @@ RenderOptions RenderWords::parse() const {
     options.lights = picture.toLightChanges();
     if (aovs)
         options.aovs = parseList("--aov", *aovs);
-    if (format) {
-        if (*format != "png" && *format != "exr" && *format != "pfm")
-            throw UsageError("--format: " + unknownName("format", *format, {"png", "exr", "pfm"}));
-        options.format = *format;
-    }
+    options.format = floatFormat(format);
     if (samples)
         options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
     if (every)
@@ -191,49 +234,6 @@ ViewOptions ViewWords::parse() const {
         throw UsageError("--screenshot is written after the last frame; it needs --frames");
     options.screenshot = screenshot;
     options.debugContext = debug;
-    return options;
-}
-
-void ExperimentWords::addTo(CLI::App& app) {
-    addOption(app, "EXPERIMENT", experiment, "",
-              "A name (afterglow list experiments), or a .json file")
-        ->required();
-    addOption(app, "--out,-o", out, "DIR", "Folder of the results; made if it is missing")
-        ->required();
-    addOption(app, "--size", size, "WxH", "Instead of the experiment's own");
-    addOption(app, "--frames,-n", frames, "N",
-              "Instead of the experiment's own; later events do not happen");
-    addOption(app, "--spp", samples, "N", "Samples a pixel of each reference, likewise");
-    addOption(app, "--context", context, "NAME", "auto, osmesa, egl or glfw [auto]");
-    app.footer(
-        "Runs every variant over the same frames with the same seed, and compares each frame "
-        "with\n"
-        "a converged picture of the same moment. Writes DIR/contact_sheet.png, "
-        "DIR/summary.json,\n"
-        "DIR/metrics.csv, DIR/experiment.json and DIR/<variant>/frame_0000.png, ...\n\n"
-        "t50, t90, t99: frames from the event (its own is 0) until the response stays above "
-        "that\n"
-        "part of the change. ghost frames: the area above the response curve. rmse, flicker, "
-        "noise:\n"
-        "of linear luminance, over the pixels that show a surface.\n\n"
-        "Examples:\n"
-        "  afterglow experiment light-off --out out/light-off\n"
-        "  afterglow experiment my.json --size 160x160 --frames 64 --spp 256 --out out/my\n\n" +
-        kExitCodes);
-}
-
-ExperimentOptions ExperimentWords::parse() const {
-    ExperimentOptions options;
-    options.experiment = *experiment;
-    if (size)
-        options.size = parseSize("--size", *size);
-    if (frames)
-        options.frames = int(parseWhole("--frames", *frames, 1, kMostFrames));
-    if (samples)
-        options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
-    if (context)
-        options.context = contextFromName(*context);
-    options.out = *out;
     return options;
 }
 

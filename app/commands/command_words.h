@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/commands/bench.h"
-#include "app/commands/experiment.h"
+#include "app/commands/exchange.h"
 #include "app/commands/render.h"
 #include "app/commands/view.h"
 
@@ -46,10 +46,11 @@ struct PictureWords {
 struct RenderWords {
     PictureWords picture;
     Text scene, aovs, format, samples, every, rate, out;
-    bool animate = false, last = false;
+    bool animate = false, last = false, exports = false;
 
     void addTo(CLI::App& app);
-    RenderOptions parse() const;
+    RenderOptions parse() const;       ///< without --export
+    ExportOptions parseExport() const; ///< with it
 };
 
 struct ViewWords {
@@ -59,13 +60,6 @@ struct ViewWords {
 
     void addTo(CLI::App& app);
     ViewOptions parse() const;
-};
-
-struct ExperimentWords {
-    Text experiment, size, frames, samples, context, out;
-
-    void addTo(CLI::App& app);
-    ExperimentOptions parse() const;
 };
 
 struct BenchWords {

@@ -3,6 +3,7 @@
 #include "app/commands/arguments.h"
 #include "app/commands/headless.h"
 #include "app/experiment/experiment.h"
+#include "app/experiment/presets.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/aov.h"
 #include "renderer/scene/load_scene.h"
@@ -17,7 +18,7 @@ namespace afterglow {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kKinds{"scenes", "experiments", "filters",
+constexpr std::array<std::string_view, 7> kKinds{"scenes", "experiments", "filters", "presets",
                                                  "aovs",   "contexts",    "settings"};
 
 struct Line {
@@ -55,6 +56,13 @@ std::vector<Line> filterLines() {
     std::vector<Line> lines;
     for (Filter filter : allFilters())
         lines.push_back({std::string(nameOf(filter)), std::string(describe(filter))});
+    return lines;
+}
+
+std::vector<Line> presetLines() {
+    std::vector<Line> lines;
+    for (const Preset& preset : presets())
+        lines.push_back({preset.name, preset.description + " (" + preset.source + ")"});
     return lines;
 }
 
@@ -113,8 +121,9 @@ std::span<const std::string_view> listKinds() {
 
 void runList(std::string_view kind) {
     using Lines = std::vector<Line> (*)();
-    constexpr std::array<Lines, kKinds.size()> makers{sceneLines, experimentLines, filterLines,
-                                                      aovLines,   contextLines,    settingLines};
+    constexpr std::array<Lines, kKinds.size()> makers{sceneLines,  experimentLines, filterLines,
+                                                      presetLines, aovLines,        contextLines,
+                                                      settingLines};
     const auto found = std::ranges::find(kKinds, kind);
     if (found == kKinds.end())
         throw UsageError(unknownName("list", kind, {kKinds.begin(), kKinds.end()}));

@@ -5,13 +5,14 @@
 
 namespace afterglow {
 
-/// A file of assets/experiments, linked into the program.
-struct EmbeddedExperiment {
+/// A JSON file of assets, linked into the program.
+struct EmbeddedFile {
     std::string_view name; ///< the file's name without ".json"
     std::string_view text;
 };
 
-/// In alphabetical order of their names.
-std::span<const EmbeddedExperiment> embeddedExperiments();
+// In alphabetical order of their names.
+std::span<const EmbeddedFile> embeddedExperiments(); ///< of assets/experiments
+std::span<const EmbeddedFile> embeddedPresets();     ///< of assets/presets
 
 } // namespace afterglow

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/experiment/timeline.h"
-#include "renderer/pipeline/settings.h"
+#include "app/experiment/variant.h"
 
 #include <cstdint>
 #include <string>
@@ -16,19 +16,19 @@ namespace afterglow {
 /// Time is frame / rate. In a file, "name", "scene", "frames" and "variants" are required; what
 /// else is left out has the value given here.
 struct Experiment {
-    std::string name;          ///< letters, digits, "-" and "_": names the folder of its results
-    std::string description;   ///< one line
-    std::string scene;         ///< the name of a scene made in code, or the path of a file
+    std::string name;        ///< letters, digits, "-", "_" and ".": names the folder of its results
+    std::string description; ///< one line
+    std::string scene;       ///< the name of a scene made in code, or the path of a file
     glm::ivec2 size{320, 320}; ///< pixels, each in [1, 16384]
     double rate = 60.0;        ///< frames per second, in (0, 1000]
     std::uint32_t seed = 1;
     Signal signal = Signal::Both;
-    bool animated = false;             ///< whether the scene's tracks play; else time stands at 0
-    std::vector<std::string> variants; ///< names of filters to compare, at least one, each once
-    Timeline timeline;                 ///< knows the number of frames, in [1, 100000]
-    int referenceSamples = 1024;       ///< per pixel of a reference, in [1, 1048576]
+    bool animated = false;         ///< whether the scene's own tracks play
+    std::vector<Variant> variants; ///< to be compared: at least one, names unique
+    Timeline timeline;             ///< knows the number of frames, in [1, 100000]
+    int referenceSamples = 1024;   ///< per pixel of a reference, in [1, 1048576]
     int settledWindow =
-        16; ///< the last frames of a segment, over which settled values are averaged
+        16; ///< the last frames of a stretch, over which settled values are averaged
 
     int frames() const { return timeline.frames(); }
     double seconds(int frame) const { return frame / rate; }
@@ -57,5 +57,8 @@ std::vector<ExperimentInfo> builtInExperiments();
 /// file. An unknown name is a UsageError that suggests the nearest known one; a file that cannot be
 /// read, or is not an experiment, is an InputError.
 Experiment loadExperiment(std::string_view nameOrPath);
+
+/// Shortened: events from that frame on do not happen; what is on its way then stays on its way.
+Timeline shortened(const Timeline& timeline, int frames);
 
 } // namespace afterglow

@@ -3,6 +3,8 @@
 #include "renderer/base/error.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -83,6 +85,30 @@ std::vector<JsonReader> JsonReader::list(std::string_view wanted, std::size_t le
     for (std::size_t i = 0; i < value_->size(); ++i)
         items.push_back(JsonReader((*value_)[i], source_, path_ + "[" + std::to_string(i) + "]"));
     return items;
+}
+
+std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
+    if (!value_->is_object())
+        fail("an object");
+    std::vector<std::pair<std::string, JsonReader>> members;
+    for (const auto& item : value_->items())
+        members.emplace_back(item.key(), at(item.key()));
+    return members;
+}
+
+bool JsonReader::isText() const {
+    return value_->is_string();
+}
+
+std::string JsonReader::setting() const {
+    if (isText())
+        return text();
+    if (!value_->is_number())
+        fail("a number or a name");
+    std::array<char, 40> digits{};
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value_->get<double>()).ptr;
+    return {digits.data(), end};
 }
 
 bool JsonReader::boolean() const {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,6 +20,8 @@ class JsonReader {
 public:
     /// Throws "expected <wanted>, found <this value>".
     [[noreturn]] void fail(std::string_view wanted) const;
+    /// Throws the cause.
+    [[noreturn]] void refuse(const std::string& cause) const;
 
     /// Each key of this object must be one of these.
     void expectKeys(std::initializer_list<std::string_view> known) const;
@@ -31,6 +34,13 @@ public:
     std::vector<JsonReader> list(std::string_view wanted, std::size_t least,
                                  std::size_t most) const;
 
+    /// The members of this object, in the order of the alphabet.
+    std::vector<std::pair<std::string, JsonReader>> members() const;
+
+    bool isText() const;
+    /// What can be said of a setting: a number, or the name of one of its values, as text for
+    /// setField().
+    std::string setting() const;
     bool boolean() const;
     double number(double least, double most) const; ///< the bounds belong to the range
     std::int64_t wholeNumber(std::int64_t least, std::int64_t most) const; ///< likewise
@@ -42,8 +52,6 @@ private:
     friend class JsonDocument;
     JsonReader(const nlohmann::json& value, std::string_view source, std::string path)
         : value_(&value), source_(source), path_(std::move(path)) {}
-
-    [[noreturn]] void refuse(const std::string& cause) const;
 
     const nlohmann::json* value_;
     std::string_view source_;

@@ -1,5 +1,7 @@
 #include "app/experiment/progress.h"
 
+#include "app/experiment/interrupt.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -16,13 +18,15 @@ Progress::~Progress() {
 }
 
 void Progress::advance(double work, std::string_view doing) {
+    throwIfInterrupted();
     done_ = std::min(done_ + work, total_);
     const auto now = Clock::now();
     if (!visible_ || (now - drawn_ < std::chrono::milliseconds(100) && done_ < total_))
         return;
     drawn_ = now;
     constexpr int kCells = 28;
-    const double part = done_ / total_;
+    const double whole = std::max(total_ - skipped_, done_);
+    const double part = whole > 0.0 ? done_ / whole : 1.0;
     const int filled = int(part * kCells);
     std::string bar(std::size_t(filled), '=');
     if (filled < kCells)
@@ -33,6 +37,10 @@ void Progress::advance(double work, std::string_view doing) {
     std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s left  %.*s", bar.c_str(), int(part * 100.0),
                  left.c_str(), int(doing.size()), doing.data());
     std::fflush(stderr);
+}
+
+void Progress::skip(double work) {
+    skipped_ = std::min(skipped_ + work, total_);
 }
 
 std::string clockText(double seconds) {

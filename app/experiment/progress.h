@@ -15,11 +15,14 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Throws Interrupted if the program has been asked to end.
     void advance(double work, std::string_view doing);
+    /// That much of the work was done before.
+    void skip(double work);
 
 private:
     using Clock = std::chrono::steady_clock;
-    double total_, done_ = 0.0;
+    double total_, done_ = 0.0, skipped_ = 0.0;
     bool visible_;
     Clock::time_point start_ = Clock::now(), drawn_{};
 };

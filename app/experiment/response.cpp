@@ -18,58 +18,82 @@ std::optional<int> startOfTail(std::span<const double> values, Holds holds) {
     return int(start);
 }
 
+glm::dvec3 rgb(const Image<glm::vec4>& image, std::size_t pixel) {
+    return glm::dvec3(image.pixels()[pixel]);
+}
+
 } // namespace
 
-std::optional<StepChange> StepChange::between(Image<float> before, Image<float> after) {
+std::optional<PictureChange> PictureChange::between(Image<glm::vec4> before, Image<glm::vec4> after,
+                                                    const Mask* counts) {
     constexpr double kLeastShare = 0.02;
     if (before.size() != after.size())
         throw std::logic_error("the references before and after an event must have one size");
+    const std::size_t pixels = before.pixels().size();
+    std::vector<double> squares(pixels);
     double greatest = 0.0;
-    for (std::size_t i = 0; i < before.pixels().size(); ++i) {
-        const double change = std::abs(double(after.pixels()[i]) - double(before.pixels()[i]));
-        if (!std::isfinite(change))
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (counts && counts->pixels()[i] == 0)
+            continue;
+        const glm::dvec3 change = rgb(after, i) - rgb(before, i);
+        squares[i] = glm::dot(change, change);
+        if (!std::isfinite(squares[i]))
             return std::nullopt;
-        greatest = std::max(greatest, change);
+        greatest = std::max(greatest, squares[i]);
     }
     Mask mask(before.size());
     double energy = 0.0;
-    for (std::size_t i = 0; i < before.pixels().size(); ++i) {
-        const double change = double(after.pixels()[i]) - double(before.pixels()[i]);
-        if (std::abs(change) > kLeastShare * greatest) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (squares[i] > kLeastShare * kLeastShare * greatest) {
             mask.pixels()[i] = 1;
-            energy += change * change;
+            energy += squares[i];
         }
     }
     if (energy == 0.0)
         return std::nullopt;
-    return StepChange(std::move(before), std::move(after), std::move(mask), energy);
+    return PictureChange(std::move(before), std::move(after), std::move(mask), energy);
 }
 
-double StepChange::response(const Image<float>& frame) const {
+double PictureChange::response(const Image<glm::vec4>& frame) const {
     if (frame.size() != before_.size())
         throw std::logic_error("a frame must have the size of its references");
     double sum = 0.0;
     for (std::size_t i = 0; i < frame.pixels().size(); ++i) {
         if (mask_.pixels()[i] == 0)
             continue;
-        const double old = before_.pixels()[i];
-        sum += (frame.pixels()[i] - old) * (after_.pixels()[i] - old);
+        const glm::dvec3 old = rgb(before_, i);
+        sum += glm::dot(rgb(frame, i) - old, rgb(after_, i) - old);
     }
     return sum / energy_;
 }
 
-double StepChange::noise(const Image<float>& frame) const {
+double PictureChange::noise(const Image<glm::vec4>& frame) const {
     const double p = response(frame);
     double sum = 0.0;
     for (std::size_t i = 0; i < frame.pixels().size(); ++i) {
         if (mask_.pixels()[i] == 0)
             continue;
         // L - L+ - (p - 1)(L+ - L-), which is the same as:
-        const double old = before_.pixels()[i];
-        const double rest = frame.pixels()[i] - old - p * (after_.pixels()[i] - old);
-        sum += rest * rest;
+        const glm::dvec3 old = rgb(before_, i);
+        const glm::dvec3 rest = rgb(frame, i) - old - p * (rgb(after_, i) - old);
+        sum += glm::dot(rest, rest);
     }
-    return std::sqrt(sum / double(countOf(mask_)));
+    return std::sqrt(sum / double(3 * countOf(mask_)));
+}
+
+double PictureChange::ghostEnergy(const Image<glm::vec4>& frame) const {
+    double ghost = 0.0, change = 0.0;
+    for (std::size_t i = 0; i < frame.pixels().size(); ++i) {
+        if (mask_.pixels()[i] == 0)
+            continue;
+        const glm::dvec3 step = rgb(after_, i) - rgb(before_, i);
+        const glm::dvec3 error = rgb(frame, i) - rgb(after_, i);
+        for (int channel = 0; channel < 3; ++channel) {
+            change += std::abs(step[channel]);
+            ghost += std::max(0.0, step[channel] < 0.0 ? error[channel] : -error[channel]);
+        }
+    }
+    return ghost / change;
 }
 
 std::optional<int> framesUntilAbove(std::span<const double> p, double level) {
@@ -107,6 +131,17 @@ ResponseSummary summarize(std::span<const double> p) {
             .t99 = framesUntilAbove(p, 0.99),
             .ghostFrames = ghostFrames(p),
             .overshoot = *std::max_element(p.begin(), p.end()) - 1.0};
+}
+
+std::optional<std::vector<double>> betweenOwnValues(std::span<const double> p, double start,
+                                                    double end) {
+    constexpr double kLeastStep = 0.05;
+    if (!(end - start >= kLeastStep))
+        return std::nullopt;
+    std::vector<double> own;
+    for (const double value : p)
+        own.push_back((value - start) / (end - start));
+    return own;
 }
 
 } // namespace afterglow

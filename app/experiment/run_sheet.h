@@ -1,35 +1,21 @@
 #pragma once
 
 #include "app/experiment/contact_sheet.h"
-#include "app/experiment/runner.h"
+#include "app/experiment/metrics_table.h"
+#include "app/experiment/run_plan.h"
 
-#include <map>
+#include <filesystem>
+
+#include <nlohmann/json_fwd.hpp>
 
 namespace afterglow {
 
-/// Gathers the pictures of a run that go on its contact sheet: few columns around the first event,
-/// or spread over the run if there is none.
-class RunSheet {
-public:
-    explicit RunSheet(const Experiment& experiment);
-
-    const std::vector<int>& frames() const { return frames_; } ///< of the columns, rising
-
-    /// Keeps the picture if its frame is a column.
-    void addFrame(const std::string& variant, int frame, const Image<glm::u8vec4>& picture);
-    void addReference(int frame, const Image<glm::u8vec4>& picture);
-
-    Image<glm::u8vec4> draw(const ExperimentResult& result) const;
-
-private:
-    std::vector<Image<glm::u8vec4>> picturesOf(const std::string& row) const;
-    SheetPlot responsePlot(const ExperimentResult& result) const;
-    SheetPlot errorPlot(const ExperimentResult& result) const;
-
-    const Experiment& experiment_;
-    std::optional<int> event_; ///< frame of the first one
-    std::vector<int> frames_;
-    std::map<std::string, std::map<int, Image<glm::u8vec4>>> pictures_; ///< by row and frame
-};
+/// The contact sheet of a run whose files are in `folder`: a few columns around the first event, or
+/// spread over the run if there is none. `summary` and `timing` are those of summary.json and
+/// timing.json. A picture that is not there is left blank.
+Image<glm::u8vec4> drawRunSheet(const Experiment& experiment, const RunPlan& plan,
+                                const MetricsTable& table, const nlohmann::ordered_json& summary,
+                                const nlohmann::ordered_json& timing,
+                                const std::filesystem::path& folder);
 
 } // namespace afterglow

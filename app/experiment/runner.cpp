@@ -1,14 +1,14 @@
 #include "app/experiment/runner.h"
 
-#include "app/experiment/progress.h"
-#include "app/experiment/reference.h"
-#include "app/experiment/run_sheet.h"
+#include "app/experiment/import_frames.h"
+#include "app/experiment/machine.h"
+#include "app/experiment/meter.h"
+#include "app/experiment/run_files.h"
 #include "renderer/base/error.h"
-#include "renderer/image/metrics.h"
-#include "renderer/scene/load_scene.h"
+#include "renderer/base/hash.h"
 
 #include <algorithm>
-#include <numeric>
+#include <filesystem>
 
 namespace afterglow {
 
@@ -17,278 +17,272 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // A frame costs about as much as this many samples of a reference: for the progress line only.
-constexpr double kFrameWork = 4.0;
+constexpr double kFrameWork = 6.0;
 
-// References draw other random numbers than the frames that are compared with them.
-constexpr std::uint32_t kReferenceSeed = 0x9e3779b9u;
+Image<glm::u8vec4> grayOf(const Image<float>& map) {
+    Image<glm::u8vec4> gray(map.size());
+    std::ranges::transform(map.pixels(), gray.pixels().begin(), [](float value) {
+        const auto level = std::uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+        return glm::u8vec4(level, level, level, 255);
+    });
+    return gray;
+}
 
-/// Frames that share one converged picture.
-struct Moment {
-    int first = 0, end = 0;
-    double seconds = 0.0;
-    std::vector<LightState> lights{};
-    bool afterEvent = false;  ///< a light was set differently in the frame before
-    Image<float> luminance{}; ///< of the reference
-    Image<glm::u8vec4> display{};
-};
+// Everything that the files of a variant depend on; of an external one, its frames apart.
+std::string keyOf(const Variant& variant, const Experiment& experiment, const RunPlan& plan,
+                  const ReferenceMaker& maker, FrameRange own) {
+    Experiment alone = experiment;
+    alone.variants = {variant};
+    Hash hash;
+    hash.add(toJson(alone));
+    hash.add(programFingerprint());
+    // The scene, the shaders and the driver: all that a converged picture of it depends on.
+    const FrameInput input = Truths(experiment, plan).inputAt(0);
+    const Settings settings = settingsOf(variant, experiment.signal);
+    hash.add(referenceKey({.scene = plan.scene,
+                           .size = experiment.size,
+                           .seen = input,
+                           .world = input,
+                           .settings = settings,
+                           .samples = 1},
+                          maker));
+    hash.add(own.first);
+    hash.add(own.end);
+    return hash.hex();
+}
 
 class Run {
 public:
-    Run(const Experiment& experiment, Renderer& renderer, const OutputFolder& folder)
-        : experiment_(experiment), renderer_(renderer), folder_(folder),
-          moments_(momentsOf(experiment, renderer.scene())),
-          progress_(double(moments_.size()) * experiment.referenceSamples +
-                    double(experiment.variants.size()) * experiment.frames() * kFrameWork) {
-        settings_.lighting.signal = int(experiment.signal);
-    }
+    Run(const Experiment& experiment, const RunPlan& plan, Renderer& renderer, const GlInfo& gl,
+        ReferenceStore& store, const OutputFolder& folder, const RunOptions& options,
+        Progress& progress)
+        : experiment_(experiment), plan_(plan), renderer_(renderer), gl_(gl), store_(store),
+          folder_(folder), options_(options), progress_(progress),
+          own_(framesOf(options.part, experiment.frames())), truths_(experiment, plan) {}
 
-    ExperimentResult run(RunSheet& sheet);
+    void run();
 
 private:
-    static std::vector<Moment> momentsOf(const Experiment& experiment, const Scene& scene);
-    FrameInput inputAt(int frame, const Moment& moment, std::uint32_t seed) const;
-    ReferenceResult makeReference(Moment& moment);
-    VariantResult runVariant(const std::string& name, RunSheet& sheet);
-    void measureEvents(VariantResult& variant);
-    void chooseSettledWindow(ExperimentResult& result) const;
-    std::size_t momentAt(int frame) const;
+    std::string key(const Variant& variant) const {
+        return keyOf(variant, experiment_, plan_, store_.maker(), own_);
+    }
+    bool isImported(const Variant& variant) const {
+        return variant.external && options_.imported &&
+               options_.imported->variant() == variant.name;
+    }
+    bool isDone(const Variant& variant) const;
+    void makeReferences();
+    void runVariant(const Variant& variant);
+    void importVariant(const Variant& variant);
+    void measure(Meter& meter, int frame, const Variant& variant, const FrameImages& images,
+                 MetricsTable& table, const OutputFolder& out);
+    Json describeRun() const;
+    void sayProgress(double work, const std::string& doing) {
+        progress_.advance(work, experiment_.name + ": " + doing);
+    }
 
     const Experiment& experiment_;
+    const RunPlan& plan_;
     Renderer& renderer_;
+    const GlInfo& gl_;
+    ReferenceStore& store_;
     const OutputFolder& folder_;
-    std::vector<Moment> moments_;
-    std::vector<std::optional<StepChange>> changes_; ///< from the moment before to each
-    Mask foreground_;
-    Settings settings_;
-    int settledFirst_ = 0, settledEnd_ = 0;
-    std::vector<double> noise_; ///< of the variant that runs, one a frame, where there is a change
-    Progress progress_;
+    const RunOptions& options_;
+    Progress& progress_;
+    FrameRange own_;
+    Truths truths_;
 };
 
-std::vector<Moment> Run::momentsOf(const Experiment& experiment, const Scene& scene) {
-    const double playing = experiment.animated ? duration(scene) : 0.0;
-    std::vector<Moment> moments;
-    for (const Segment& segment : experiment.timeline.segments()) {
-        std::vector<LightState> lights;
-        for (const Light& light : scene.lights)
-            lights.push_back(segment.lights.of(light.name));
-        // What moves is another picture in every frame; tracks hold their last value after their
-        // end.
-        int first = segment.first;
-        while (first < segment.end) {
-            const double seconds = experiment.animated ? experiment.seconds(first) : 0.0;
-            const int end = seconds < playing ? first + 1 : segment.end;
-            moments.push_back(
-                {.first = first,
-                 .end = end,
-                 .seconds = seconds,
-                 .lights = lights,
-                 .afterEvent = first == segment.first && first > 0 && playing == 0.0});
-            first = end;
-        }
+bool Run::isDone(const Variant& variant) const {
+    if (isImported(variant))
+        return false;
+    const bool isThere = finishedKey(folder_.path() / variant.name) == key(variant);
+    if (variant.external && !isThere)
+        throw InputError(experiment_.name + ": the frames of " + variant.name +
+                         " come from outside, and " + (folder_.path() / variant.name).string() +
+                         " does not hold their measures; afterglow import-frames makes them");
+    return isThere && (variant.external || !options_.fresh);
+}
+
+void Run::makeReferences() {
+    truths_.make(renderer_, store_, own_, [&](int samples) {
+        sayProgress(samples, "references, " + std::to_string(experiment_.referenceSamples) +
+                                 " samples a pixel");
+    });
+    const OutputFolder out = folder_.subfolder("reference");
+    Json spent = Json::array();
+    for (std::size_t i = 0; i < plan_.moments.size(); ++i) {
+        const Moment& moment = plan_.moments[i];
+        if (!truths_.has(i) || !own_.contains(moment.first))
+            continue;
+        const Truth& truth = truths_.of(i);
+        if (countOf(truth.foreground) == 0)
+            throw InputError(experiment_.name + ": the camera of " + plan_.scene.name +
+                             " sees no surface in frame " + std::to_string(moment.first) +
+                             ", so there is nothing to measure");
+        out.writePng(frameStem("frame", moment.first) + ".png", truth.display);
+        spent.push_back({{"first", moment.first}, {"ms", truth.milliseconds}});
     }
-    return moments;
+    out.writeJson("timing.json", {{"references", spent}});
 }
 
-std::size_t Run::momentAt(int frame) const {
-    std::size_t index = 0;
-    while (frame >= moments_[index].end)
-        ++index;
-    return index;
-}
-
-FrameInput Run::inputAt(int frame, const Moment& moment, std::uint32_t seed) const {
-    const double seconds = experiment_.animated ? experiment_.seconds(frame) : 0.0;
-    const Scene& scene = renderer_.scene();
-    return {.camera = cameraAt(scene, poseAt(scene, seconds)),
-            .seconds = seconds,
-            .frame = std::uint32_t(frame),
-            .seed = seed,
-            .lights = moment.lights};
-}
-
-ReferenceResult Run::makeReference(Moment& moment) {
-    const Convergence converged =
-        converge(renderer_, inputAt(moment.first, moment, experiment_.seed ^ kReferenceSeed),
-                 settings_, experiment_.referenceSamples, [&](int count) {
-                     progress_.advance(count, "reference of frame " + std::to_string(moment.first));
-                 });
-    moment.luminance = converged.lit;
-    moment.display = converged.display->read<glm::u8vec4>();
-    folder_.subfolder("reference")
-        .writePng(frameStem("frame", moment.first) + ".png", moment.display);
-    return {moment.first, moment.end, converged.residual, converged.milliseconds};
-}
-
-void Run::chooseSettledWindow(ExperimentResult& result) const {
-    const Moment* settled = &moments_.back();
-    for (const Moment& moment : moments_) {
-        const bool lit =
-            std::ranges::any_of(moment.luminance.pixels(), [](float l) { return l > 0; });
-        if (lit && (moment.end - moment.first > 1 || moments_.size() == 1)) {
-            settled = &moment;
-            break;
-        }
+void Run::measure(Meter& meter, int frame, const Variant& variant, const FrameImages& images,
+                  MetricsTable& table, const OutputFolder& out) {
+    out.writePng(frameStem("frame", frame) + ".png", images.display);
+    if (std::ranges::find(plan_.pictures, frame) == plan_.pictures.end()) {
+        meter.measure(frame, images, table, variant.name);
+        return;
     }
-    result.settledEnd = settled->end;
-    result.settledFirst = std::max(settled->first, settled->end - experiment_.settledWindow);
+    FrameMaps maps;
+    meter.measure(frame, images, table, variant.name, &maps);
+    const OutputFolder mapFolder = out.subfolder("maps");
+    for (const auto& [name, map] : maps)
+        mapFolder.writePng(frameStem(name, frame) + ".png", grayOf(map));
 }
 
-ExperimentResult Run::run(RunSheet& sheet) {
-    ExperimentResult result;
-    for (Moment& moment : moments_) {
-        result.references.push_back(makeReference(moment));
-        if (foreground_.size().x == 0) // what is seen and what is background hardly moves
-            foreground_ = foregroundOf(renderer_);
-    }
-    if (countOf(foreground_) == 0)
-        throw InputError(experiment_.name + ": the camera of " + renderer_.scene().name +
-                         " sees no surface, so there is nothing to measure");
-    changes_.resize(moments_.size());
-    for (std::size_t i = 1; i < moments_.size(); ++i)
-        if (moments_[i].afterEvent)
-            changes_[i] = StepChange::between(moments_[i - 1].luminance, moments_[i].luminance);
-    chooseSettledWindow(result);
-    settledFirst_ = result.settledFirst;
-    settledEnd_ = result.settledEnd;
-
-    for (const std::string& name : experiment_.variants)
-        result.variants.push_back(runVariant(name, sheet));
-    for (int frame : sheet.frames())
-        sheet.addReference(frame, moments_[momentAt(frame)].display);
-    return result;
-}
-
-VariantResult Run::runVariant(const std::string& name, RunSheet& sheet) {
-    VariantResult variant{.name = name};
-    const OutputFolder frames = folder_.subfolder(name);
-    settings_.filter = filterFromName(name);
+void Run::runVariant(const Variant& variant) {
+    const OutputFolder out = folder_.subfolder(variant.name);
+    forgetFinished(out.path());
+    const Settings settings = settingsOf(variant, experiment_.signal);
+    Meter meter(experiment_, plan_, truths_);
+    MetricsTable table;
+    FrameClock clock;
     renderer_.resetHistory();
     renderer_.timer().setEnabled(true);
-    noise_.clear();
-    std::vector<Image<float>> settled;
-    for (int frame = 0; frame < experiment_.frames(); ++frame) {
-        const std::size_t index = momentAt(frame);
-        const Moment& moment = moments_[index];
-        const GpuTexture& display =
-            variant.clock.render(renderer_, inputAt(frame, moment, experiment_.seed), settings_);
-        const auto shown = display.read<glm::u8vec4>();
-        frames.writePng(frameStem("frame", frame) + ".png", shown);
-        sheet.addFrame(name, frame, shown);
-
-        Image<float> luminance = litLuminance(renderer_);
-        variant.rmse.push_back(rmse(luminance, moment.luminance, &foreground_));
-        variant.relMse.push_back(relMse(luminance, moment.luminance, &foreground_));
-        const auto& change = changes_[index];
-        variant.response.push_back(change ? std::optional(change->response(luminance))
-                                          : std::nullopt);
-        noise_.push_back(change ? change->noise(luminance) : 0.0);
-        if (frame >= settledFirst_ && frame < settledEnd_)
-            settled.push_back(std::move(luminance));
-        progress_.advance(kFrameWork, name + ", frame " + std::to_string(frame + 1) + " of " +
-                                          std::to_string(experiment_.frames()));
-    }
-    variant.rmseSettled = std::accumulate(variant.rmse.begin() + settledFirst_,
-                                          variant.rmse.begin() + settledEnd_, 0.0) /
-                          (settledEnd_ - settledFirst_);
-    variant.flicker = flicker(settled, &foreground_);
-    measureEvents(variant);
-    return variant;
-}
-
-void Run::measureEvents(VariantResult& variant) {
-    for (std::size_t i = 0; i < moments_.size(); ++i) {
-        if (!changes_[i])
-            continue;
-        const Moment& moment = moments_[i];
-        std::vector<double> response;
-        for (int frame = moment.first; frame < moment.end; ++frame)
-            response.push_back(*variant.response[std::size_t(frame)]);
-        const std::span<const double> noise(noise_.data() + moment.first,
-                                            std::size_t(moment.end - moment.first));
-        const auto first = noise.first(std::min<std::size_t>(kNoiseFrames, noise.size()));
-        variant.events.push_back(
-            {.frame = moment.first,
-             .response = summarize(response),
-             .noiseAfter = std::accumulate(first.begin(), first.end(), 0.0) / double(first.size()),
-             .noiseSettles =
-                 framesUntilSettled(noise, settledValue(noise, experiment_.settledWindow))});
-    }
-}
-
-void requireLights(const Experiment& experiment, const Scene& scene) {
-    for (const std::string& name : experiment.timeline.lightNames()) {
-        std::vector<std::string_view> known;
-        for (const Light& light : scene.lights)
-            known.push_back(light.name);
-        if (std::ranges::find(known, name) != known.end())
-            continue;
-        throw InputError(experiment.name + ": timeline: " +
-                         unknownName("light of the scene " + scene.name, name, known));
-    }
-}
-
-std::string metricsCsv(const ExperimentResult& result) {
-    std::string csv = "variant,frame,metric,value\n";
-    const auto add = [&](const std::string& variant, std::size_t frame, const char* metric,
-                         double value) {
-        char number[40];
-        std::snprintf(number, sizeof number, "%.9g", value);
-        csv += variant + "," + std::to_string(frame) + "," + metric + "," + number + "\n";
-    };
-    for (const VariantResult& v : result.variants)
-        for (std::size_t frame = 0; frame < v.rmse.size(); ++frame) {
-            if (v.response[frame])
-                add(v.name, frame, "response", *v.response[frame]);
-            add(v.name, frame, "rmse", v.rmse[frame]);
-            add(v.name, frame, "relmse", v.relMse[frame]);
-            add(v.name, frame, "ms", v.clock.milliseconds()[frame]);
+    for (int frame = 0; frame < own_.end; ++frame) {
+        if (own_.contains(frame)) {
+            clock.render(renderer_, truths_.inputAt(frame), settings);
+            table.add(variant.name, frame, "rays", double(clock.stats().back().rays));
+            table.add(variant.name, frame, "gradient_samples",
+                      clock.stats().back().gradientSamples);
+            table.add(variant.name, frame, "invalid_values", clock.stats().back().invalidValues);
+            measure(meter, frame, variant, readFrame(renderer_, settings, true), table, out);
+        } else {
+            renderer_.render(truths_.inputAt(frame), settings);
+            if (frame == own_.first - 1 || plan_.settled.contains(frame))
+                meter.skip(frame, readFrame(renderer_, settings, false));
         }
-    return csv;
+        sayProgress(own_.contains(frame) ? kFrameWork : kFrameWork / 3.0,
+                    variant.name + ", frame " + std::to_string(frame + 1) + " of " +
+                        std::to_string(own_.end));
+    }
+    out.writeText("metrics.csv", table.csv({variant.name}));
+    Json timing = {{"first", own_.first}, {"end", own_.end}};
+    timing.update(describe(clock));
+    markFinished(out, key(variant), Json::array({timing}));
 }
 
-Json describeRun(const Experiment& experiment, const Renderer& renderer, const GlInfo& gl,
-                 const ExperimentResult& result) {
-    Json references = Json::array();
-    for (const ReferenceResult& reference : result.references)
-        references.push_back({{"first", reference.first},
-                              {"end", reference.end},
-                              {"samples", experiment.referenceSamples},
-                              {"residual_rmse", reference.residual},
-                              {"ms", reference.milliseconds}});
-    Json timing = Json::object();
-    for (const VariantResult& variant : result.variants)
-        timing[variant.name] = describe(variant.clock);
-    return {
-        {"program", "afterglow"},
-        {"version", version()},
-        {"command", "experiment"},
-        {"gl", describe(gl)},
-        {"experiment", Json::parse(toJson(experiment))},
-        {"scene", describe(renderer.scene(), renderer.sceneStats())},
-        {"measured", "linear luminance of filtered times albedo, over pixels that show a surface"},
-        {"settled_window", {result.settledFirst, result.settledEnd}},
-        {"references", references},
-        {"timing", timing}};
+// What another program has made takes the place of what a filter would have made of each frame.
+void Run::importVariant(const Variant& variant) {
+    const OutputFolder out = folder_.subfolder(variant.name);
+    forgetFinished(out.path());
+    const Settings settings = settingsOf(variant, experiment_.signal);
+    Meter meter(experiment_, plan_, truths_);
+    MetricsTable table;
+    renderer_.resetHistory();
+    for (int frame = own_.first; frame < own_.end; ++frame) {
+        renderer_.render(truths_.inputAt(frame), settings);
+        measure(meter, frame, variant, options_.imported->show(frame, renderer_, settings), table,
+                out);
+        sayProgress(kFrameWork, variant.name + ", frame " + std::to_string(frame + 1) + " of " +
+                                    std::to_string(own_.end));
+    }
+    out.writeJson("import.json", options_.imported->describe());
+    out.writeText("metrics.csv", table.csv({variant.name}));
+    markFinished(out, key(variant), Json::array()); // nobody knows how long they took
+}
+
+Json Run::describeRun() const {
+    Json scene = describe(plan_.scene, renderer_.sceneStats());
+    scene.erase("bvh_build_ms"); // a time: the same run gives the same text
+    Json told = Json::parse(toJson(experiment_));
+    // A file's path is relative to the file that names it, and that is another one now.
+    if (std::filesystem::exists(experiment_.scene))
+        told["scene"] = std::filesystem::absolute(experiment_.scene).lexically_normal().string();
+    Json json = {{"program", "afterglow"},
+                 {"version", version()},
+                 {"commit", commit()},
+                 {"command", "experiment"},
+                 {"gl", describe(gl_)},
+                 {"machine", describeMachine()},
+                 {"experiment", told},
+                 {"scene", scene},
+                 {"measured", "linear rgb of filtered signal times albedo, over pixels that show a "
+                              "surface; psnr, ssim and flip of the display image"},
+                 {"settled_window", {plan_.settled.first, plan_.settled.end}},
+                 {"pictures", plan_.pictures}};
+    json["events"] = Json::array();
+    for (const RunEvent& event : plan_.events)
+        json["events"].push_back({{"frame", event.change.first},
+                                  {"end", event.change.end},
+                                  {"kind", event.kind == RunEvent::Kind::Step ? "step" : "motion"},
+                                  {"text", event.text}});
+    json["references"] = Json::array();
+    for (std::size_t i = 0; i < plan_.moments.size(); ++i)
+        if (truths_.has(i) && own_.contains(plan_.moments[i].first))
+            json["references"].push_back({{"first", plan_.moments[i].first},
+                                          {"end", plan_.moments[i].end},
+                                          {"samples", experiment_.referenceSamples},
+                                          {"residual_rmse", truths_.of(i).residual}});
+    json["settings"] = Json::object();
+    for (const Variant& variant : experiment_.variants)
+        if (!variant.external)
+            json["settings"][variant.name] = toJson(settingsOf(variant, experiment_.signal));
+    if (!options_.part.isWhole())
+        json["part"] = {options_.part.index, options_.part.count};
+    return json;
+}
+
+void Run::run() {
+    std::vector<const Variant*> missing;
+    for (const Variant& variant : experiment_.variants)
+        if (!isDone(variant))
+            missing.push_back(&variant);
+    const bool isWritten = std::filesystem::exists(folder_.path() / "experiment.json");
+    const double perVariant = workOf(experiment_, plan_, options_.part) -
+                              double(truths_.countFor(own_)) * experiment_.referenceSamples;
+    const auto done = experiment_.variants.size() - missing.size();
+    progress_.skip(perVariant * double(done) / double(experiment_.variants.size()));
+
+    if (own_.frames() > 0 && (!missing.empty() || !isWritten)) {
+        renderer_.setScene(plan_.scene);
+        renderer_.resize(experiment_.size);
+        makeReferences();
+        for (const Variant* variant : missing)
+            isImported(*variant) ? importVariant(*variant) : runVariant(*variant);
+    } else {
+        progress_.skip(double(truths_.countFor(own_)) * experiment_.referenceSamples);
+    }
+    if (!missing.empty() || !isWritten)
+        folder_.writeJson("experiment.json", describeRun());
+    if (options_.part.isWhole())
+        finishRun(folder_);
 }
 
 } // namespace
 
-ExperimentResult runExperiment(const Experiment& experiment, Renderer& renderer, const GlInfo& gl,
-                               const OutputFolder& folder) {
-    Scene scene = loadScene(experiment.scene);
-    requireLights(experiment, scene);
-    renderer.setScene(std::move(scene));
-    renderer.resize(experiment.size);
+FrameRange framesOf(Part part, int frames) {
+    const auto start = [&](int index) { return int(std::int64_t(frames) * index / part.count); };
+    return {start(part.index - 1), start(part.index)};
+}
 
-    RunSheet sheet(experiment);
-    ExperimentResult result = Run(experiment, renderer, folder).run(sheet);
-    folder.writePng("contact_sheet.png", sheet.draw(result));
-    result.contactSheet = folder.path() / "contact_sheet.png";
-    folder.writeText("metrics.csv", metricsCsv(result));
-    folder.writeJson("experiment.json", describeRun(experiment, renderer, gl, result));
-    folder.writeJson("summary.json", summaryOf(experiment, result));
-    return result;
+bool isMeasured(const Variant& variant, const Experiment& experiment, const RunPlan& plan,
+                const ReferenceMaker& maker, const std::filesystem::path& folder) {
+    return finishedKey(folder / variant.name) ==
+           keyOf(variant, experiment, plan, maker, {0, experiment.frames()});
+}
+
+double workOf(const Experiment& experiment, const RunPlan& plan, Part part) {
+    const FrameRange own = framesOf(part, experiment.frames());
+    const double frames = own.frames() + own.first / 3.0;
+    return double(Truths(experiment, plan).countFor(own)) * experiment.referenceSamples +
+           double(experiment.variants.size()) * frames * kFrameWork;
+}
+
+void runExperiment(const Experiment& experiment, const RunPlan& plan, Renderer& renderer,
+                   const GlInfo& gl, ReferenceStore& store, const OutputFolder& folder,
+                   const RunOptions& options, Progress& progress) {
+    Run(experiment, plan, renderer, gl, store, folder, options, progress).run();
 }
 
 } // namespace afterglow

@@ -2,61 +2,50 @@
 
 #include "app/experiment/experiment.h"
 #include "app/experiment/output.h"
-#include "app/experiment/response.h"
+#include "app/experiment/progress.h"
+#include "app/experiment/reference.h"
+#include "app/experiment/run_plan.h"
+
+#include <filesystem>
 
 namespace afterglow {
 
-/// What one event did to one variant.
-struct EventResult {
-    int frame = 0;
-    ResponseSummary response{};
-    double noiseAfter = 0.0; ///< mean over the kNoiseFrames frames from the event on
-    std::optional<int>
-        noiseSettles{}; ///< frames until the noise is within 10 % of its settled value
-};
-constexpr int kNoiseFrames = 16;
+class ImportedFrames;
 
-/// One variant over the whole timeline. Errors are of the linear luminance of `color`, that is of
-/// the filtered signal times albedo plus emission, before tone mapping, over the pixels that show a
-/// surface.
-struct VariantResult {
-    std::string name;
-    std::vector<double> rmse{}, relMse{};          ///< one a frame, against the frame's reference
-    std::vector<std::optional<double>> response{}; ///< one a frame; none before the first event
-    std::vector<EventResult> events{};             ///< those that change the picture
-    double rmseSettled = 0.0;                      ///< mean over the settled window
-    double flicker = 0.0;                          ///< over the settled window
-    FrameClock clock{};
+/// One of `count` equal shares of the frames of a run.
+struct Part {
+    int index = 1, count = 1; ///< index in [1, count]
+    bool isWhole() const { return count == 1; }
 };
 
-/// The converged picture of the frames [first, end).
-struct ReferenceResult {
-    int first = 0, end = 0;
-    double residual = 0.0; ///< the RMSE that it still has itself; see Convergence
-    double milliseconds = 0.0;
+/// The frames that a part measures and writes. To get there it renders those before as well, since
+/// every frame's history is the frame before. May be empty if there are more parts than frames.
+FrameRange framesOf(Part part, int frames);
+
+struct RunOptions {
+    Part part = {};
+    bool fresh = false; ///< do again what an earlier run into the same folder has done
+    /// The frames of one external variant, which is measured from them; of whole runs only.
+    const ImportedFrames* imported = nullptr;
 };
 
-struct ExperimentResult {
-    std::vector<ReferenceResult> references;
-    int settledFirst = 0, settledEnd = 0; ///< the settled window
-    std::vector<VariantResult> variants;
-    std::filesystem::path contactSheet;
-};
+/// Whether a whole run into this folder has measured the variant, with this program and the same
+/// references.
+bool isMeasured(const Variant& variant, const Experiment& experiment, const RunPlan& plan,
+                const ReferenceMaker& maker, const std::filesystem::path& folder);
 
-/// Runs every variant over the timeline, from frame 0 and with the same seed. Writes
-/// DIR/<variant>/frame_0000.png, DIR/reference/frame_0000.png, contact_sheet.png, metrics.csv,
-/// experiment.json and, last, summary.json. The renderer's scene and size are set by this.
+/// The work of a run, in units of Progress.
+double workOf(const Experiment& experiment, const RunPlan& plan, Part part);
+
+/// Runs every variant over the timeline, from frame 0 and with the same seed, and compares its
+/// frames with references from the store. Files: docs/cli.md. The renderer's scene and size are set
+/// by this.
 ///
-/// The settled window is the last Experiment::settledWindow frames of the first stretch in which
-/// there is light and nothing changes.
-ExperimentResult runExperiment(const Experiment& experiment, Renderer& renderer, const GlInfo& gl,
-                               const OutputFolder& folder);
-
-/// summary.json. Numbers that were never reached are null. Where the picture changes more than
-/// once, the numbers of a variant are those of the first event, and "events" lists all.
-nlohmann::ordered_json summaryOf(const Experiment& experiment, const ExperimentResult& result);
-
-/// The same as lines to be read.
-std::string tableOf(const ExperimentResult& result);
+/// A variant whose files are there already, made by the same program from the same experiment, is
+/// not run again: so an interrupted run goes on where it was. What a part leaves is for merge().
+/// An external variant can only be there already, unless `options` has its frames: InputError.
+void runExperiment(const Experiment& experiment, const RunPlan& plan, Renderer& renderer,
+                   const GlInfo& gl, ReferenceStore& store, const OutputFolder& folder,
+                   const RunOptions& options, Progress& progress);
 
 } // namespace afterglow

@@ -1,18 +1,25 @@
 #pragma once
 
 #include "renderer/pipeline/light_state.h"
+#include "renderer/scene/scene.h"
 
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace afterglow {
 
+// What can happen. Frames count from 0; an event shows in its own frame for the first time. Events
+// at frame 0 set the scene up. What lasts from `frame` to `until` is on its way in the frames
+// [frame, until): at frame - 1 it has not begun, in frame until - 1 it has arrived. until = frame +
+// 1 is a jump.
+
 /// From `frame` on, a light is set differently. What is empty stays as it was.
 struct LightEvent {
-    int frame = 0;     ///< >= 0; events at frame 0 set the scene up
+    int frame = 0;     ///< >= 0
     std::string light; ///< a light's name; "*": all lights
     std::optional<bool> on = {};
     std::optional<float> power = {};    ///< see LightState
@@ -20,6 +27,29 @@ struct LightEvent {
 
     bool operator==(const LightEvent&) const = default;
 };
+
+/// A node of the scene glides, at constant speed.
+struct NodeMotion {
+    int frame = 0, until = 1;
+    std::string node;
+    glm::vec3 by{0.0f}; ///< metres, in its parent's space, from where it was
+
+    bool operator==(const NodeMotion&) const = default;
+};
+
+/// The camera travels and turns to another view.
+struct CameraMove {
+    int frame = 0, until = 1;
+    glm::vec3 eye{0.0f}, target{0.0f}; ///< metres, world; upright
+
+    bool operator==(const CameraMove&) const = default;
+};
+
+using TimelineEvent = std::variant<LightEvent, NodeMotion, CameraMove>;
+
+int frameOf(const TimelineEvent& event);
+/// "key off", "key to 50 %", "mover moves", "camera cut".
+std::string describe(const TimelineEvent& event);
 
 /// How every light is set: those that events have named, and all others alike.
 class LightSettings {
@@ -37,37 +67,49 @@ private:
     std::map<std::string, LightState, std::less<>> named_;
 };
 
-/// The frames [first, end) in which nothing changes.
-struct Segment {
-    int first = 0, end = 0;
-    LightSettings lights;
-
-    int frames() const { return end - first; }
-};
-
 /// What happens in the frames 0 .. frames - 1: events in the order of their frames. Those of one
 /// frame apply in the order in which they are listed.
 class Timeline {
 public:
     Timeline() = default;
-    /// Frames must be in order, and in [0, frames); anything else is a std::logic_error.
-    Timeline(int frames, std::vector<LightEvent> events);
+    /// Frames must be in order, and in [0, frames); what moves must have arrived before it moves
+    /// again, and until > frame. Anything else is a std::logic_error.
+    Timeline(int frames, std::vector<TimelineEvent> events);
 
     int frames() const { return frames_; }
-    const std::vector<LightEvent>& events() const { return events_; }
-
-    /// The names of the lights that events name, each once, in alphabetical order, without "*".
-    std::vector<std::string> lightNames() const;
+    const std::vector<TimelineEvent>& events() const { return events_; }
+    bool moves() const; ///< whether anything but light changes
 
     LightSettings lightsAt(int frame) const;
 
-    /// The longest ranges of frames in which no light changes, in order and without a gap. An event
-    /// that sets what is already so does not end one.
-    std::vector<Segment> segments() const;
+    /// The scene with this timeline's motions as its tracks, at `rate` frames per second; its own
+    /// tracks play only if `animated`. `owner` begins the message of the InputError that names a
+    /// light or a node that the scene does not have.
+    Scene staged(Scene scene, double rate, bool animated, std::string_view owner) const;
 
 private:
     int frames_ = 0;
-    std::vector<LightEvent> events_;
+    std::vector<TimelineEvent> events_;
 };
+
+/// The frames [first, end) in which nothing changes: they share one converged picture.
+struct Moment {
+    int first = 0, end = 0;
+    double seconds = 0.0;             ///< scene time
+    std::vector<LightState> lights{}; ///< by slot
+    // What differs from the moment before:
+    bool lightsChanged = false, worldMoved = false, cameraMoved = false;
+
+    int frames() const { return end - first; }
+    /// A change of light alone: it has a step response.
+    bool isStep() const { return lightsChanged && !worldMoved && !cameraMoved; }
+};
+
+/// The moments of a timeline in a scene that it has staged: in order, without a gap, each as long
+/// as it can be. An event that sets what is already so ends none.
+std::vector<Moment> momentsOf(const Timeline& timeline, const Scene& staged, double rate);
+
+/// The index of the moment that holds a frame.
+std::size_t momentAt(const std::vector<Moment>& moments, int frame);
 
 } // namespace afterglow

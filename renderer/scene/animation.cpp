@@ -21,7 +21,10 @@ glm::vec4 valueAt(const Track& track, double seconds) {
         return track.values.front();
     }
     const std::size_t i = std::size_t(next - track.times.begin()) - 1;
-    if (next == track.times.end() || track.interpolation == Track::Interpolation::Step) {
+    // At a key, and between two that are equal, the value is the key's to the last bit, which a
+    // weighted sum is not: what stands still must not be taken for something that moves.
+    if (next == track.times.end() || track.interpolation == Track::Interpolation::Step ||
+        seconds == track.times[i] || track.values[i] == track.values[i + 1]) {
         return track.values[i];
     }
     const double span = track.times[i + 1] - track.times[i];

@@ -71,6 +71,11 @@ std::vector<std::string> filesIn(const std::filesystem::path& folder) {
     return names;
 }
 
+bool tellsTimes(std::string_view file) {
+    return file.ends_with("timing.json") || file.ends_with("contact_sheet.png") ||
+           file.ends_with("report.html");
+}
+
 bool isOneErrorLine(std::string_view text) {
     return text.starts_with("afterglow: ") && text.size() > 12 &&
            text.find('\n') == text.size() - 1;

@@ -25,6 +25,9 @@ std::string bytesOf(const std::filesystem::path& file);
 /// Names of the files below a folder, relative to it, sorted.
 std::vector<std::string> filesIn(const std::filesystem::path& folder);
 
+/// Whether a file of a run holds times, so that two runs need not agree on it.
+bool tellsTimes(std::string_view file);
+
 /// Exactly one line, which begins with the name of the program.
 bool isOneErrorLine(std::string_view text);
 

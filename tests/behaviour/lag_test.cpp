@@ -29,10 +29,10 @@ Sequence keyLightAlone(Filter filter, bool on) {
 /// what has settled too, so 0 and 1 are the filter's own settled responses before the event and at
 /// the end.
 ResponseSummary respond(Filter filter, bool switchedOn) {
-    const Image<float> dark = luminanceOf(keyLightAlone(filter, false).reference(1));
-    const Image<float> lit = luminanceOf(keyLightAlone(filter, true).reference(256));
+    const Image<glm::vec4> dark = keyLightAlone(filter, false).reference(1);
+    const Image<glm::vec4> lit = keyLightAlone(filter, true).reference(256);
     const auto change =
-        switchedOn ? StepChange::between(dark, lit) : StepChange::between(lit, dark);
+        switchedOn ? PictureChange::between(dark, lit) : PictureChange::between(lit, dark);
     REQUIRE(change);
 
     Sequence sequence = keyLightAlone(filter, !switchedOn);
@@ -41,12 +41,12 @@ ResponseSummary respond(Filter filter, bool switchedOn) {
         if (i == kSettle)
             sequence.light("key").on = switchedOn;
         sequence.next();
-        (i < kSettle ? before : p).push_back(change->response(luminanceOf(sequence.signal())));
+        (i < kSettle ? before : p).push_back(change->response(sequence.signal()));
     }
     const double start = settledValue(before, 10), end = settledValue(p, 10);
-    for (double& value : p)
-        value = (value - start) / (end - start);
-    const ResponseSummary summary = summarize(p);
+    const auto own = betweenOwnValues(p, start, end);
+    REQUIRE(own);
+    const ResponseSummary summary = summarize(*own);
     MESSAGE(std::string(nameOf(filter)), switchedOn ? " on" : " off", ": settled from ", start,
             " to ", end, ", t90 ", summary.t90.value_or(-1), ", ghost frames ",
             summary.ghostFrames);

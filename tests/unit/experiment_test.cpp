@@ -1,7 +1,9 @@
 #include "app/experiment/embedded.h"
 #include "app/experiment/experiment.h"
+#include "app/experiment/run_plan.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/image/color.h"
 
 #include <filesystem>
 #include <string>
@@ -62,7 +64,7 @@ TEST_CASE("an experiment says what its file says, and the rest has its documente
     CHECK(e.seed == 1);
     CHECK(e.signal == Signal::Both);
     CHECK_FALSE(e.animated);
-    CHECK(e.variants == std::vector<std::string>{"svgf", "asvgf"});
+    CHECK(e.variants == std::vector{variantOf(Filter::Svgf), variantOf(Filter::Asvgf)});
     CHECK(e.referenceSamples == 1024);
     CHECK(e.settledWindow == 16);
     CHECK(e.seconds(30) == 0.5);
@@ -75,10 +77,14 @@ TEST_CASE("every member of an experiment is read, and survives being written") {
     const std::string text = R"({
         "name": "all-of_it2", "description": "Says \"all\".", "scene": "hall", "size": [61, 37],
         "frames": 1e2, "rate": 23.976, "seed": 4294967295, "signal": "shadows", "animated": true,
-        "variants": ["svgf"], "referenceSamples": 16, "settledWindow": 5,
+        "variants": ["svgf", { "name": "quick-0.5", "filter": "asvgf",
+            "settings": { "alpha": 0.5, "lambdaFetch": "bilinear" },
+            "sweep": { "variant": "asvgf", "key": "alpha", "value": 0.5 } }], "referenceSamples": 16, "settledWindow": 5,
         "timeline": [ { "frame": 0, "light": "*", "on": false },
                       { "frame": 7, "light": "key", "power": 0.7, "tint": [1, 0.25, 0] },
-                      { "frame": 7, "light": "fill", "on": true } ] })";
+                      { "frame": 7, "light": "fill", "on": true },
+                      { "frame": 8, "until": 12, "node": "mover", "by": [1, -2.5, 0] },
+                      { "frame": 9, "camera": { "eye": [1, 2, 3], "target": [0, 0.1, 0] } } ] })";
     const Experiment e = parseExperiment(text, "all.json");
     const auto check = [](const Experiment& x) {
         CHECK(x.name == "all-of_it2");
@@ -90,10 +96,25 @@ TEST_CASE("every member of an experiment is read, and survives being written") {
         CHECK(x.seed == 4294967295u);
         CHECK(x.signal == Signal::Shadows);
         CHECK(x.animated);
-        CHECK(x.variants == std::vector<std::string>{"svgf"});
+        REQUIRE(x.variants.size() == 2);
+        CHECK(x.variants[0] == variantOf(Filter::Svgf));
+        CHECK(x.variants[1].name == "quick-0.5");
+        CHECK(x.variants[1].sweep == SweepPoint{"asvgf", "alpha", "0.5"});
+        const Settings settings = settingsOf(x.variants[1], x.signal);
+        CHECK(settings.filter == Filter::Asvgf);
+        CHECK(settings.denoiser.temporal.alpha == 0.5f);
+        CHECK(settings.denoiser.temporal.lambdaFetch == gpu::kLambdaBilinear);
+        CHECK(settings.lighting.signal == int(Signal::Shadows));
         CHECK(x.referenceSamples == 16);
         CHECK(x.settledWindow == 5);
-        CHECK(x.timeline.events().size() == 3);
+        REQUIRE(x.timeline.events().size() == 5);
+        CHECK(x.timeline.events()[3] ==
+              TimelineEvent(
+                  NodeMotion{.frame = 8, .until = 12, .node = "mover", .by = {1.0f, -2.5f, 0.0f}}));
+        CHECK(
+            x.timeline.events()[4] ==
+            TimelineEvent(CameraMove{
+                .frame = 9, .until = 10, .eye = {1.0f, 2.0f, 3.0f}, .target = {0.0f, 0.1f, 0.0f}}));
         CHECK(x.timeline.lightsAt(7).of("key") ==
               LightState{.on = false, .power = 0.7f, .tint = {1.0f, 0.25f, 0.0f}});
         CHECK(x.timeline.lightsAt(7).of("fill").on);
@@ -136,7 +157,8 @@ TEST_CASE("a mistake in an experiment is named by file and place, with what was 
         refusal("timeline", R"([{ "frame": 1, "light": "key" }])") ==
         "small.json: timeline[0]: expected one of \"on\", \"power\" and \"tint\", found an object");
     CHECK(refusal("timeline", R"([{ "frame": 1, "on": true }])") ==
-          "small.json: timeline[0]: \"light\" is missing");
+          "small.json: timeline[0]: expected one of \"light\", \"node\" and \"camera\", found an "
+          "object");
     CHECK(refusal("timeline", R"([{ "frame": 1, "light": "", "on": true }])") ==
           "small.json: timeline[0].light: expected the name of a light, or \"*\" for all, found "
           "\"\"");
@@ -148,16 +170,26 @@ TEST_CASE("a mistake in an experiment is named by file and place, with what was 
           "small.json: timeline[0].tint: expected [red, green, blue], found a list of 2");
     CHECK(refusal("timeline", R"([{ "frame": 1, "light": "key", "tint": [1, null, 1] }])") ==
           "small.json: timeline[0].tint[1]: expected a number from 0 to 1e+06, found null");
-    CHECK(
-        refusal("timeline", R"([{ "frame": 1, "camera": "main" }])") ==
-        "small.json: timeline[0]: unknown key \"camera\"; known are \"frame\", \"light\", \"on\", "
-        "\"power\" or \"tint\"");
+    CHECK(refusal("timeline", R"([{ "frame": 1, "camera": "main" }])") ==
+          "small.json: timeline[0].camera: expected an object, found \"main\"");
+    CHECK(refusal("timeline", R"([{ "frame": 1, "light": "key", "by": [0, 0, 0] }])")
+              .starts_with("small.json: timeline[0]: unknown key \"by\"; known are \"frame\""));
+    CHECK(refusal("timeline", R"([{ "frame": 1, "node": "a", "by": [0, 0] }])") ==
+          "small.json: timeline[0].by: expected [x, y, z], found a list of 2");
+    CHECK(refusal("timeline", R"([{ "frame": 3, "until": 3, "node": "a", "by": [0, 0, 0] }])") ==
+          "small.json: timeline[0].until: expected a whole number from 4 to 20, found 3");
+    CHECK(refusal("timeline", R"([{ "frame": 0, "until": 3, "node": "a", "by": [0, 0, 0] }])") ==
+          "small.json: timeline[0].until: expected no end of what is set up at frame 0, found 3");
+    CHECK(refusal("timeline", R"([{ "frame": 1, "until": 9, "node": "a", "by": [0, 0, 0] },
+                                  { "frame": 8, "node": "a", "by": [0, 0, 0] }])") ==
+          "small.json: timeline[1].frame: expected a frame at which it has arrived: 9 or later, "
+          "found 8");
     CHECK(refusal("timeline", "7") == "small.json: timeline: expected a list of events, found 7");
     CHECK(refusal("timeline", "[7]") == "small.json: timeline[0]: expected an object, found 7");
 
     CHECK(refusal("name", "") == "small.json: \"name\" is missing");
-    CHECK(refusal("name", R"("../up")") ==
-          "small.json: name: expected a name of letters, digits, \"-\" and \"_\", found \"../up\"");
+    CHECK(refusal("name", R"("../up")") == "small.json: name: expected a name of letters, digits, "
+                                           "\"-\", \"_\" and \".\", found \"../up\"");
     CHECK(refusal("scene", "3") == "small.json: scene: expected a text, found 3");
     CHECK(refusal("scene", R"("")") ==
           "small.json: scene: expected the name of a scene or the path of a file, found \"\"");
@@ -174,12 +206,18 @@ TEST_CASE("a mistake in an experiment is named by file and place, with what was 
     CHECK(refusal("signal", R"("light")") ==
           "small.json: signal: expected \"shadows\", \"ao\" or \"both\", found \"light\"");
     CHECK(refusal("variants", "[]") ==
-          "small.json: variants: expected a list of filters, found a list of 0");
+          "small.json: variants: expected a list of variants, found a list of 0");
     CHECK(refusal("variants", R"(["svgf", "svgf"])") ==
-          "small.json: variants[1]: expected each filter once, found \"svgf\"");
-    CHECK(refusal("variants", R"(["svgf", "a-svgf"])") ==
-          "small.json: variants[1]: expected \"none\", \"fixed\", \"svgf\" or \"asvgf\", found "
-          "\"a-svgf\"");
+          "small.json: variants[1]: expected each name once, found \"svgf\"");
+    CHECK(
+        refusal("variants", R"(["svgf", "a-svgf"])")
+            .starts_with("small.json: variants[1]: no filter named 'a-svgf'; did you mean 'asvgf'? "
+                         "(known: none, fixed"));
+    CHECK(refusal("variants", R"([{ "name": "x", "filter": "a-svgf" }])")
+              .starts_with("small.json: variants[0].filter: expected \"none\", \"fixed\""));
+    CHECK(
+        refusal("variants", R"([{ "name": "x", "filter": "svgf", "settings": { "alpha": 7 } }])") ==
+        "small.json: variant x: setting 'alpha' is in [0.005, 1], not 7");
     CHECK(refusal("animated", R"("yes")") ==
           "small.json: animated: expected true or false, found \"yes\"");
     CHECK(refusal("description", "[[]]") ==
@@ -228,22 +266,56 @@ TEST_CASE("the experiments in the program are the files of assets/experiments") 
 }
 
 TEST_CASE("the lag experiments change one light, in the middle, and nothing else") {
-    for (const std::string name : {"light-off", "light-on", "fill-light"}) {
+    for (const std::string name :
+         {"light-off", "light-on", "light-dim", "fill-light", "light-color"}) {
         CAPTURE(name);
         const Experiment e = loadExperiment(name);
-        const std::vector<Segment> segments = e.timeline.segments();
-        REQUIRE(segments.size() == 2);
-        CHECK(segments[1].first == e.frames() / 2);
-        CHECK(segments[0].lights.of("key").on == (name != "light-on"));
-        CHECK(segments[1].lights.of("key").on == (name == "light-on"));
-        for (const Segment& segment : segments) {
-            CHECK(segment.lights.of("fill").on == (name == "fill-light"));
-            CHECK_FALSE(segment.lights.of("lantern").on);
-            CHECK(segment.frames() >= 2 * e.settledWindow);
+        const RunPlan plan = planOf(e);
+        REQUIRE(plan.moments.size() == 2);
+        REQUIRE(plan.events.size() == 1);
+        CHECK(plan.moments[1].isStep());
+        CHECK(plan.moments[1].first == e.frames() / 2);
+        for (const Moment& moment : plan.moments) {
+            CHECK(moment.lights[1].on == (name == "fill-light" || name == "light-color"));
+            CHECK(moment.frames() >= 2 * e.settledWindow);
         }
-        CHECK(e.signal == (name == "fill-light" ? Signal::Both : Signal::Shadows));
+        CHECK(plan.moments[0].lights[0].on == (name != "light-on"));
+        CHECK(plan.moments[1].lights[0].on == (name != "light-off" && name != "fill-light"));
+        CHECK(e.signal == (name.ends_with("color") || name.starts_with("fill") ? Signal::Both
+                                                                               : Signal::Shadows));
+        // Settled values are taken while there is light.
+        CHECK(plan.settled.end == (name == "light-on" ? e.frames() : e.frames() / 2));
     }
-    CHECK(loadExperiment("static").timeline.segments().size() == 1);
+    CHECK(planOf(loadExperiment("static")).moments.size() == 1);
+}
+
+TEST_CASE("the color experiment changes the key light's color and not its luminance") {
+    const RunPlan plan = planOf(loadExperiment("light-color"));
+    const Instance& lamp = plan.scene.instances[plan.scene.lights[0].instances[0]];
+    const glm::vec3 emission = plan.scene.materials[lamp.material].emission;
+    const glm::vec3 before = emission * plan.moments[0].lights[0].scale();
+    const glm::vec3 after = emission * plan.moments[1].lights[0].scale();
+    CHECK(luminance(after) == doctest::Approx(luminance(before)).epsilon(1e-5));
+    CHECK(glm::length(after - before) > 0.5f * glm::length(before));
+}
+
+TEST_CASE("what moves in the suite stands still before and long enough after") {
+    for (const std::string name : {"light-move", "object-move", "camera-pan", "camera-cut"}) {
+        CAPTURE(name);
+        const Experiment e = loadExperiment(name);
+        const RunPlan plan = planOf(e);
+        REQUIRE(plan.events.size() == 1);
+        const RunEvent& event = plan.events[0];
+        CHECK(event.kind == RunEvent::Kind::Motion);
+        CHECK(plan.settled.end == event.change.first);
+        CHECK(plan.settled.frames() == e.settledWindow);
+        CHECK(event.end == e.frames());
+        CHECK(event.end - event.change.end > e.settledWindow);
+        const Moment& moving = plan.moments[1];
+        CHECK_FALSE(moving.lightsChanged);
+        CHECK(moving.cameraMoved == name.starts_with("camera"));
+        CHECK(moving.worldMoved == name.ends_with("-move"));
+    }
 }
 
 TEST_CASE(
@@ -260,7 +332,7 @@ TEST_CASE(
               .starts_with("no experiment named 'lightoff'; did you mean 'light-off'? (known: "));
     CHECK(answer("statik").find("did you mean 'static'?") != std::string::npos);
     CHECK(answer("fil-ligth").find("did you mean 'fill-light'?") != std::string::npos);
-    CHECK(answer("xyzzy").starts_with("no experiment named 'xyzzy' (known: fill-light, "));
+    CHECK(answer("xyzzy").starts_with("no experiment named 'xyzzy' (known: camera-cut, "));
     CHECK(answer("light-on") == "found");
     CHECK_THROWS_AS(loadExperiment("no/such/experiment"), InputError);
     CHECK_THROWS_AS(loadExperiment("static.json.json"), InputError);

@@ -1,5 +1,8 @@
 #include "app/experiment/timeline.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/procedural.h"
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 
@@ -40,11 +43,12 @@ TEST_CASE("without events every light is as the scene has it") {
     const Timeline timeline(10, {});
     CHECK(timeline.lightsAt(0).of("key") == LightState{});
     CHECK(timeline.lightsAt(9) == LightSettings{});
-    const std::vector<Segment> segments = timeline.segments();
-    REQUIRE(segments.size() == 1);
-    CHECK(segments[0].first == 0);
-    CHECK(segments[0].end == 10);
-    CHECK(Timeline().segments().empty());
+    const std::vector<Moment> moments = momentsOf(timeline, makeProceduralScene("rooms"), 60.0);
+    REQUIRE(moments.size() == 1);
+    CHECK(moments[0].first == 0);
+    CHECK(moments[0].end == 10);
+    CHECK(moments[0].lights == std::vector<LightState>(2));
+    CHECK_FALSE(timeline.moves());
 }
 
 TEST_CASE("an event holds from its own frame on, for its own light, until another") {
@@ -54,7 +58,6 @@ TEST_CASE("an event holds from its own frame on, for its own light, until anothe
     CHECK(timeline.lightsAt(20).of("fill").on);
     CHECK_FALSE(timeline.lightsAt(49).of("key").on);
     CHECK(timeline.lightsAt(50).of("key").on);
-    CHECK(timeline.lightNames() == std::vector<std::string>{"key"});
 }
 
 TEST_CASE("an event changes only what it says") {
@@ -74,50 +77,148 @@ TEST_CASE("all lights can be set at once, before and after one is set apart") {
     CHECK(timeline.lightsAt(5).of("key").scale() == glm::vec3(0.5f));
     CHECK(timeline.lightsAt(5).of("lantern 3").power == 0.5f);
     CHECK_FALSE(timeline.lightsAt(5).of("lantern 3").on);
-    CHECK(timeline.lightNames() == std::vector<std::string>{"key"});
 }
 
-TEST_CASE("segments end where something changes and nowhere else") {
+TEST_CASE("moments end where something changes and nowhere else") {
     const Timeline timeline(60, {turned(0, "fill", false),  // how it starts
                                  turned(10, "fill", false), // so it was already
                                  turned(20, "key", false),  // a change,
                                  turned(20, "key", true),   // taken back in the same frame
                                  turned(30, "key", false),  //
                                  powered(30, "fill", 2.0f), // two at once
-                                 turned(59, "key", true)}); // the last frame is a segment, too
-    const std::vector<Segment> segments = timeline.segments();
-    REQUIRE(segments.size() == 3);
-    CHECK(segments[0].first == 0);
-    CHECK(segments[0].end == 30);
-    CHECK(segments[1].first == 30);
-    CHECK(segments[1].frames() == 29);
-    CHECK(segments[2].first == 59);
-    CHECK(segments[2].end == 60);
-    CHECK_FALSE(segments[0].lights.of("fill").on);
-    CHECK(segments[1].lights.of("fill").power == 2.0f);
+                                 turned(59, "key", true)}); // the last frame is a moment, too
+    const Scene scene = makeProceduralScene("cornell");     // key, fill
+    const std::vector<Moment> moments = momentsOf(timeline, scene, 60.0);
+    REQUIRE(moments.size() == 3);
+    CHECK(moments[0].first == 0);
+    CHECK(moments[0].end == 30);
+    CHECK_FALSE(moments[0].isStep());
+    CHECK(moments[1].first == 30);
+    CHECK(moments[1].frames() == 29);
+    CHECK(moments[1].isStep());
+    CHECK(moments[2].first == 59);
+    CHECK(moments[2].end == 60);
+    CHECK_FALSE(moments[0].lights[1].on);
+    CHECK(moments[1].lights[1].power == 2.0f);
+    for (const int frame : {0, 29, 30, 58, 59}) {
+        const Moment& moment = moments[momentAt(moments, frame)];
+        CHECK(moment.first <= frame);
+        CHECK(frame < moment.end);
+    }
 }
 
 TEST_CASE(
-    "the segments of any timeline cover it, agree with its frames, and are as long as can be") {
+    "the moments of any timeline cover it, agree with its frames, and are as long as can be") {
     std::mt19937 random(3);
+    const Scene scene = makeProceduralScene("cornell");
     for (int round = 0; round < 50; ++round) {
-        std::vector<LightEvent> events;
+        std::vector<TimelineEvent> events;
         int frame = 0;
         while ((frame += int(random() % 5)) < 40)
             events.push_back(turned(frame, random() % 3 ? "key" : "*", random() % 2));
         const Timeline timeline(40, events);
-        const std::vector<Segment> segments = timeline.segments();
+        const std::vector<Moment> moments = momentsOf(timeline, scene, 30.0);
         int next = 0;
-        for (std::size_t i = 0; i < segments.size(); ++i) {
-            CHECK(segments[i].first == next);
-            CHECK(segments[i].frames() > 0);
-            for (next = segments[i].first; next < segments[i].end; ++next)
-                CHECK(timeline.lightsAt(next) == segments[i].lights);
+        for (std::size_t i = 0; i < moments.size(); ++i) {
+            CHECK(moments[i].first == next);
+            CHECK(moments[i].frames() > 0);
+            for (next = moments[i].first; next < moments[i].end; ++next) {
+                CHECK(timeline.lightsAt(next).of("key") == moments[i].lights[0]);
+                CHECK(timeline.lightsAt(next).of("fill") == moments[i].lights[1]);
+            }
             if (i > 0)
-                CHECK_FALSE(segments[i].lights == segments[i - 1].lights);
+                CHECK(moments[i].lights != moments[i - 1].lights);
         }
         CHECK(next == 40);
     }
+}
+
+TEST_CASE(
+    "a node glides from where it was, shows its first step in the event's frame, and arrives") {
+    constexpr double kRate = 24.0;
+    const Timeline timeline(
+        30, {NodeMotion{.frame = 0, .node = "mover", .by = {0.0f, 0.5f, 0.0f}},
+             NodeMotion{.frame = 10, .until = 14, .node = "mover", .by = {2.0f, 0.0f, 0.0f}},
+             NodeMotion{.frame = 20, .until = 21, .node = "mover", .by = {0.0f, 0.0f, 1.0f}}});
+    CHECK(timeline.moves());
+    const Scene still = makeProceduralScene("moving");
+    const Scene scene = timeline.staged(still, kRate, false, "test");
+    const auto node = std::ranges::find(scene.nodes, "mover", &Node::name) - scene.nodes.begin();
+    const glm::vec3 rest = still.nodes[std::size_t(node)].translation + glm::vec3(0.0f, 0.5f, 0.0f);
+    const auto at = [&](int frame) {
+        return glm::vec3(poseAt(scene, frame / kRate).worldFromNode[std::size_t(node)][3]) - rest;
+    };
+    const auto near = [](glm::vec3 a, glm::vec3 b) { return glm::length(a - b) < 1e-5f; };
+    for (const int frame : {0, 5, 9})
+        CHECK(at(frame) == glm::vec3(0.0f));
+    for (int step = 1; step <= 4; ++step)
+        CHECK(near(at(9 + step), {0.5f * float(step), 0.0f, 0.0f}));
+    CHECK(at(13) == at(19));
+    CHECK(near(at(20), {2.0f, 0.0f, 1.0f}));
+    CHECK(at(20) == at(29));
+
+    const std::vector<Moment> moments = momentsOf(timeline, scene, kRate);
+    REQUIRE(moments.size() == 6); // [0, 10), 10, 11, 12, [13, 20), [20, 30)
+    CHECK(moments[1].first == 10);
+    CHECK(moments[4].first == 13);
+    CHECK(moments[4].end == 20);
+    CHECK(moments[5].worldMoved);
+    CHECK_FALSE(moments[5].cameraMoved);
+    CHECK_FALSE(moments[5].isStep());
+}
+
+TEST_CASE("the camera arrives at the view that it was sent to, and the scene stands still") {
+    const glm::vec3 eye{1.0f, 2.0f, 3.0f}, target{0.0f, 1.0f, 0.0f};
+    const Timeline timeline(20, {CameraMove{.frame = 5, .until = 9, .eye = eye, .target = target}});
+    const Scene scene = timeline.staged(makeProceduralScene("moving"), 60.0, false, "test");
+    const Camera view = cameraAt(scene, poseAt(scene, 8 / 60.0)), wanted = lookAt(eye, target);
+    CHECK(glm::length(view.position - wanted.position) < 1e-5f);
+    CHECK(glm::length(view.forward() - wanted.forward()) < 1e-5f);
+    const std::vector<Moment> moments = momentsOf(timeline, scene, 60.0);
+    REQUIRE(moments.size() == 5);
+    for (std::size_t i = 1; i < moments.size(); ++i) {
+        CHECK(moments[i].cameraMoved);
+        CHECK_FALSE(moments[i].worldMoved);
+    }
+}
+
+TEST_CASE("the scene's own animation stands still unless it is asked for") {
+    const Timeline timeline(4, {});
+    const Scene scene = makeProceduralScene("moving");
+    CHECK(momentsOf(timeline, timeline.staged(scene, 60.0, false, "test"), 60.0).size() == 1);
+    CHECK(momentsOf(timeline, timeline.staged(scene, 60.0, true, "test"), 60.0).size() == 4);
+}
+
+TEST_CASE("a light or a node that the scene does not have is named, with the nearest it has") {
+    const auto complaint = [](TimelineEvent event, bool animated = false) -> std::string {
+        try {
+            Timeline(10, {std::move(event)})
+                .staged(makeProceduralScene("moving"), 60.0, animated, "mine.json");
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    CHECK(
+        complaint(turned(0, "keys", true))
+            .starts_with("mine.json: timeline: no light of the scene moving named 'keys'; did you "
+                         "mean 'key'?"));
+    CHECK(complaint(NodeMotion{.frame = 1, .until = 2, .node = "movers"})
+              .starts_with("mine.json: timeline: no node of the scene moving named 'movers'; did "
+                           "you mean 'mover'?"));
+    CHECK(complaint(NodeMotion{.frame = 1, .until = 2, .node = "mover"}) == "accepted");
+    CHECK(complaint(NodeMotion{.frame = 1, .until = 2, .node = "mover"}, true) ==
+          "mine.json: timeline: 'mover' is animated by the scene itself; it cannot be moved as "
+          "well");
+}
+
+TEST_CASE("events say what they are") {
+    CHECK(describe(turned(1, "key", false)) == "key off");
+    CHECK(describe(powered(1, "*", 0.5f)) == "all lights to 50 %");
+    CHECK(describe(NodeMotion{.frame = 3, .until = 9, .node = "box"}) == "box moves");
+    CHECK(describe(NodeMotion{.frame = 3, .until = 4, .node = "box"}) == "box jumps");
+    CHECK(describe(CameraMove{.frame = 3, .until = 4}) == "camera cut");
+    CHECK(describe(CameraMove{.frame = 3, .until = 5}) == "camera moves");
 }
 
 TEST_CASE("settings are equal if all lights are, however they came to be") {
@@ -137,4 +238,10 @@ TEST_CASE("a timeline out of order or out of range is our mistake") {
                     std::logic_error);
     CHECK_THROWS_AS(Timeline(10, {turned(10, "key", true)}), std::logic_error);
     CHECK_THROWS_AS(Timeline(10, {turned(-1, "key", true)}), std::logic_error);
+    const auto glides = [](int frame, int until) {
+        return NodeMotion{.frame = frame, .until = until, .node = "a"};
+    };
+    CHECK_THROWS_AS(Timeline(10, {glides(5, 5)}), std::logic_error);
+    CHECK_THROWS_AS(Timeline(10, {glides(2, 6), glides(5, 7)}), std::logic_error);
+    CHECK_NOTHROW(Timeline(10, {glides(2, 6), glides(6, 20)}));
 }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "app/commands/command_words.h"
+#include "app/commands/experiment.h"
+
+namespace afterglow {
+
+// The words of the commands that measure: experiment, sweep, merge and report.
+
+struct ExperimentWords {
+    Texts experiments, settings;
+    Text size, frames, samples, filters, part, cache, context, out;
+    bool quick = false, fresh = false, noCache = false;
+
+    void addTo(CLI::App& app);
+    ExperimentOptions parse() const;
+};
+
+struct SweepWords {
+    ExperimentWords experiment;
+    Text sweep;
+
+    void addTo(CLI::App& app);
+    Sweep parseSweep() const;
+};
+
+struct MergeWords {
+    Texts parts;
+    Text out;
+
+    void addTo(CLI::App& app);
+};
+
+struct ReportWords {
+    Text folder;
+
+    void addTo(CLI::App& app);
+};
+
+} // namespace afterglow

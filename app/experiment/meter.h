@@ -1,0 +1,64 @@
+#pragma once
+
+#include "app/experiment/metrics_table.h"
+#include "app/experiment/response.h"
+#include "app/experiment/truth.h"
+
+#include <deque>
+
+namespace afterglow {
+
+/// What a filter made of one frame.
+struct FrameImages {
+    Image<glm::vec4> lit; ///< filtered signal times albedo
+    Image<glm::u8vec4> display;
+    // Empty where the filter has none:
+    Image<float> lambda;  ///< per stratum
+    Image<float> alpha;   ///< alpha' per pixel
+    Image<float> history; ///< luminance of the history that was fetched
+    Mask hasHistory{};
+};
+/// Of the last frame that was rendered; what is for the oracles only if `withControl`.
+FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl);
+
+/// Images in [0, 1] that explain a frame: "error" (FLIP), "lambda", "lambda_ideal", "alpha",
+/// "alpha_ideal", as far as they are there.
+using FrameMaps = std::vector<std::pair<std::string, Image<float>>>;
+
+/// Takes the measures of one variant, frame by frame.
+class Meter {
+public:
+    /// All three must outlive it, and the truths of the frames that are measured must be there.
+    Meter(const Experiment& experiment, const RunPlan& plan, const Truths& truths);
+
+    /// Frames come in their order, each once: all of [range.first - 1, range.end) as far as they
+    /// exist, and those of the settled window if its last one is to be measured.
+    void skip(int frame, const FrameImages& images);
+    /// Adds rows for the frame. `maps`, if given, gets the maps.
+    void measure(int frame, const FrameImages& images, MetricsTable& table,
+                 const std::string& variant, FrameMaps* maps = nullptr);
+
+private:
+    void measureQuality(int frame, const FrameImages& images);
+    void measureChange(int frame, const FrameImages& images);
+    void measureTrail(int frame, const FrameImages& images);
+    void measureControl(int frame, const FrameImages& images);
+    void keep(int frame, const FrameImages& images);
+    const PictureChange* changeTo(std::size_t moment);
+    void add(const char* metric, double value) { rows_.emplace_back(metric, value); }
+
+    const Experiment& experiment_;
+    const RunPlan& plan_;
+    const Truths& truths_;
+    std::vector<std::optional<PictureChange>> steps_; ///< by moment, made when first asked for
+    std::vector<bool> stepKnown_;
+    std::optional<Flip> flip_; ///< against the display image of flipMoment_
+    std::size_t flipMoment_ = 0;
+    Image<glm::vec4> before_; ///< the frame before
+    int beforeFrame_ = -1;
+    Flicker flicker_;
+    std::vector<std::pair<const char*, double>> rows_;
+    FrameMaps* maps_ = nullptr;
+};
+
+} // namespace afterglow

@@ -1,0 +1,140 @@
+#include "app/report/run_folder.h"
+
+#include "app/experiment/json_reader.h"
+#include "app/experiment/output.h"
+#include "app/report/metrics_file.h"
+#include "renderer/base/error.h"
+#include "renderer/base/file.h"
+
+#include <set>
+
+namespace afterglow {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kMostFrames = 100000;
+constexpr std::size_t kMostItems = 1000000;
+
+/// A file that was looked at by `check`, with its members in the order in which they were written.
+template <class Check>
+Json readJson(const fs::path& file, Check check) {
+    const std::string text = readFile(file);
+    const JsonDocument document(text, file.string());
+    check(document.root());
+    return Json::parse(text);
+}
+
+/// The parts of a run that decide which files there are.
+struct Plan {
+    std::vector<std::string> variants;
+    glm::ivec2 size{0};        ///< of a frame
+    std::vector<int> pictures; ///< frames, rising
+    struct Reference {
+        int first, end;
+    };
+    std::vector<Reference> references;
+
+    explicit Plan(const JsonReader& run);
+};
+
+std::string folderName(const JsonReader& json) {
+    std::string name = json.text();
+    if (name.empty() || name == "." || name == ".." || name == "reference" ||
+        name.find('/') != name.npos || name.find('\0') != name.npos)
+        json.fail("a name that a folder can have");
+    return name;
+}
+
+Plan::Plan(const JsonReader& run) {
+    const JsonReader experiment = run.at("experiment");
+    experiment.at("name").text();
+    std::set<std::string> names;
+    for (const JsonReader& variant :
+         experiment.at("variants").list("a list of variants", 1, kMostItems)) {
+        variants.push_back(folderName(variant.at("name")));
+        if (!names.insert(variants.back()).second)
+            variant.at("name").fail("a name that no other variant has");
+    }
+    const auto edges = experiment.at("size").list("width and height", 2, 2);
+    size = {int(edges[0].wholeNumber(1, 65536)), int(edges[1].wholeNumber(1, 65536))};
+    const int frames = int(experiment.at("frames").wholeNumber(1, kMostFrames));
+    for (const JsonReader& frame : run.at("pictures").list("a list of frames", 1, kMostItems)) {
+        const int least = pictures.empty() ? 0 : pictures.back() + 1;
+        pictures.push_back(int(frame.wholeNumber(least, frames - 1)));
+    }
+    for (const JsonReader& reference :
+         run.at("references").list("a list of references", 0, kMostItems)) {
+        const int first = int(reference.at("first").wholeNumber(0, frames - 1));
+        references.push_back({first, int(reference.at("end").wholeNumber(first + 1, frames))});
+    }
+    for (const JsonReader& event : run.at("events").list("a list of events", 0, kMostItems)) {
+        event.at("frame").wholeNumber(0, frames - 1);
+        event.at("text").text();
+    }
+}
+
+/// `file` must have an object for each variant in its member "variants".
+Json readVariants(const fs::path& file, const Plan& plan) {
+    return readJson(file, [&](const JsonReader& root) {
+        const JsonReader variants = root.at("variants");
+        for (const std::string& name : plan.variants)
+            variants.at(name).members();
+    })["variants"];
+}
+
+Json variantPictures(const fs::path& folder, const Plan& plan, PictureStore& store) {
+    Json images = Json::object();
+    for (int frame : plan.pictures)
+        images["picture"].push_back(store.addPhoto(folder / (frameStem("frame", frame) + ".png")));
+    for (const char* map : {"error", "lambda", "lambda_ideal", "alpha", "alpha_ideal"}) {
+        Json numbers = Json::array();
+        bool any = false;
+        for (int frame : plan.pictures) {
+            const fs::path file = folder / "maps" / (frameStem(map, frame) + ".png");
+            if (!fs::exists(file)) {
+                numbers.push_back(nullptr);
+                continue;
+            }
+            any = true;
+            numbers.push_back(store.addMap(file, plan.size));
+        }
+        if (any)
+            images[map] = numbers;
+    }
+    return images;
+}
+
+Json referencePictures(const fs::path& folder, const Plan& plan, PictureStore& store) {
+    Json numbers = Json::array();
+    for (int frame : plan.pictures) {
+        Json number = nullptr;
+        for (const Plan::Reference& reference : plan.references)
+            if (reference.first <= frame && frame < reference.end)
+                number = store.addPhoto(folder / (frameStem("frame", reference.first) + ".png"));
+        numbers.push_back(number);
+    }
+    return {{"picture", numbers}};
+}
+
+} // namespace
+
+Json readRunFolder(const fs::path& folder, PictureStore& pictures) {
+    std::optional<Plan> plan;
+    Json run =
+        readJson(folder / "experiment.json", [&](const JsonReader& root) { plan.emplace(root); });
+    Json images = Json::object();
+    for (const std::string& variant : plan->variants)
+        images[variant] = variantPictures(folder / variant, *plan, pictures);
+    images["reference"] = referencePictures(folder / "reference", *plan, pictures);
+    return {{"run", std::move(run)},
+            {"summary", readVariants(folder / "summary.json", *plan)},
+            {"timing", readVariants(folder / "timing.json", *plan)},
+            {"metrics", readMetrics(folder / "metrics.csv", plan->variants)},
+            {"images", std::move(images)}};
+}
+
+} // namespace afterglow

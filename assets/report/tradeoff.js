@@ -1,0 +1,76 @@
+const lagMeasures = [
+    { key: 't90', label: 't90' },
+    { key: 'lag_frames', label: 'lag frames' },
+    { key: 'ghost_frames', label: 'ghost frames' },
+];
+
+/// What is swept trades noise for lag: a curve for each filter, closer to the corner is better.
+class TradeOff {
+    constructor(run) {
+        this.run = run;
+        this.measures = lagMeasures.filter(({ key }) => run.variants.some((variant) => Number.isFinite(variant.summary[key])));
+        this.key = this.measures[0]?.key;
+        const keys = [...new Set(run.variants.flatMap((variant) => variant.summary.sweep?.key ?? []))];
+        this.plot = make('div', { class: 'plot', role: 'img' });
+        this.root = make('div', { class: 'card tradeoff' },
+            make('div', { class: 'bar' }, make('h3', {}, 'Noise against lag'),
+                makeChips('Lag as', `${run.id}-lag`, this.measures.map(({ key, label }) => ({ value: key, label })), this.key, (key) => {
+                    this.key = key;
+                    this.draw();
+                })),
+            this.plot,
+            make('p', { class: 'hint' }, `Each curve is one filter with other values of ${keys.join(', ')}. Closer to the lower left corner is better; what never adapts lies on the upper edge.`));
+        onResize(this.plot, () => this.draw());
+    }
+
+    /// Curves of points { x, y, variant, text }; y is null if it never happened.
+    curves() {
+        const byName = new Map();
+        for (const variant of this.run.variants) {
+            const { sweep, rmse_settled: x, [this.key]: y } = variant.summary;
+            const never = isNever({ key: this.key }, variant);
+            if (!Number.isFinite(x) || !(Number.isFinite(y) || never)) continue;
+            const name = sweep ? sweep.variant : variant.name;
+            const point = { x, y: never ? null : y, variant, value: sweep?.value ?? null, text: sweep ? String(sweep.value) : variant.name };
+            byName.set(name, [...(byName.get(name) ?? []), point]);
+        }
+        return [...byName].map(([name, points]) => ({ name, points: points.sort((a, b) => (a.value > b.value ? 1 : a.value < b.value ? -1 : 0)) }));
+    }
+
+    draw() {
+        const width = this.plot.clientWidth, height = this.plot.clientHeight;
+        if (width === 0) return;
+        const curves = this.curves(), points = curves.flatMap((curve) => curve.points);
+        const left = 46, right = 24, top = 34, bottom = 48;
+        const xHigh = Math.max(...points.map(({ x }) => x), 1e-9) * 1.08, yHigh = Math.max(...points.map(({ y }) => y ?? 0), 1) * 1.12;
+        const xOf = (x) => left + x / xHigh * (width - left - right);
+        const yOf = (y) => (y === null ? top - 12 : top + (1 - y / yHigh) * (height - top - bottom));
+        const xs = ticksBetween(0, xHigh, width / 110), ys = ticksBetween(0, yHigh, height / 60);
+        const label = this.measures.find(({ key }) => key === this.key).label;
+        const parts = [
+            ...ys.flatMap((y) => [makeSvg('line', { class: 'grid', x1: left, x2: width - right, y1: yOf(y), y2: yOf(y) }),
+                makeSvg('text', { class: 'tick', x: left - 8, y: yOf(y) + 4, 'text-anchor': 'end' }, tickText(y, ys))]),
+            ...xs.map((x) => makeSvg('text', { class: 'tick', x: xOf(x), y: height - bottom + 20, 'text-anchor': 'middle' }, tickText(x, xs))),
+            makeSvg('text', { class: 'tick axis', x: width - right, y: height - 8, 'text-anchor': 'end' }, 'settled RMSE \u2192'),
+            makeSvg('text', { class: 'tick axis', x: 0, y: 12 }, `\u2191 ${label}, frames`),
+        ];
+        if (points.some(({ y }) => y === null)) {
+            parts.push(makeSvg('line', { class: 'level', x1: left, x2: width - right, y1: yOf(null), y2: yOf(null) }),
+                makeSvg('text', { class: 'tick', x: width - right, y: yOf(null) - 8, 'text-anchor': 'end' }, 'never'));
+        }
+        for (const { name, points: own } of curves) {
+            const series = seriesOf(name), color = `var(--series-${series})`;
+            const swept = own.filter(({ value }) => value !== null);
+            const path = swept.map(({ x, y }, i) => `${i ? 'L' : 'M'}${xOf(x).toFixed(1)} ${yOf(y).toFixed(1)}`).join('');
+            if (swept.length > 1) parts.push(makeSvg('path', { class: 'curve', d: path, style: `stroke: ${color}`, 'stroke-dasharray': dashes[series] }));
+            for (const { x, y, text, value } of own) {
+                parts.push(makeSvg('circle', { class: 'mark', cx: xOf(x), cy: yOf(y), r: value === null ? 6 : 4.5, style: y === null ? `fill: var(--card); stroke: ${color}` : `fill: ${color}` }),
+                    makeSvg('text', { class: 'mark-text', x: xOf(x) + 8, y: yOf(y) + (y === null ? 18 : -8), style: `fill: ${color}` }, text));
+            }
+        }
+        this.plot.setAttribute('aria-label', `${label} over settled RMSE. ` + curves.map(({ name, points: own }) =>
+            `${name}: ${own.map(({ x, y, text }) => `${text}: ${y === null ? 'never' : shortNumber(y)} at ${shortNumber(x)}`).join('; ')}`).join('. '));
+        this.plot.replaceChildren(makeSvg('svg', { width, height, 'aria-hidden': 'true' }, parts));
+    }
+}
+

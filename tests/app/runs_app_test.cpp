@@ -1,0 +1,223 @@
+// Runs that are interrupted, split, repeated and compared.
+
+#include "program.h"
+
+#include "renderer/image/image_io.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+namespace afterglow::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+// Everything that can happen, in few pixels: a light goes out, the mover glides, the camera jumps.
+std::string eventful(const TemporaryFolder& folder, const std::string& name = "eventful") {
+    return folder.write(name + ".json", R"({
+    "name": ")" + name + R"(", "scene": "moving", "size": [61, 37], "frames": 32, "seed": 5,
+    "variants": ["fixed", "asvgf"], "referenceSamples": 16, "settledWindow": 6,
+    "timeline": [{ "frame": 9, "light": "key", "power": 0.5 },
+                 { "frame": 15, "until": 19, "node": "mover", "by": [0.4, 0, 0] },
+                 { "frame": 27, "camera": { "eye": [1, 1.5, 4], "target": [0, 0.5, 0] } }]})");
+}
+
+Words experimentWords(const Words& what, const std::string& out) {
+    Words words{"experiment"};
+    words.insert(words.end(), what.begin(), what.end());
+    for (const char* word : {"--context", "osmesa", "--no-cache", "--out"})
+        words.push_back(word);
+    words.push_back(out);
+    return words;
+}
+
+Run experiment(const Words& what, const std::string& out) {
+    return afterglow(experimentWords(what, out));
+}
+
+void checkSameRun(const fs::path& a, const fs::path& b) {
+    const std::vector<std::string> files = filesIn(a);
+    CHECK(files == filesIn(b));
+    int compared = 0;
+    for (const std::string& file : files)
+        if (!tellsTimes(file)) {
+            CAPTURE(file);
+            CHECK((bytesOf(a / file) == bytesOf(b / file)));
+            ++compared;
+        }
+    CHECK(compared > 60);
+}
+
+nlohmann::json summaryIn(const fs::path& folder) {
+    return nlohmann::json::parse(bytesOf(folder / "summary.json")).at("variants");
+}
+
+} // namespace
+
+TEST_CASE("the parts of a run, merged, are the run, byte for byte but for times") {
+    const TemporaryFolder folder;
+    const std::string file = eventful(folder);
+    REQUIRE(experiment({file}, folder / "whole").exitCode == 0);
+    Words merge{"merge"};
+    for (const char* part : {"3", "1", "2"}) { // in any order
+        const std::string out = folder / ("part" + std::string(part));
+        const Run run = experiment({file, "--part", std::string(part) + "/3"}, out);
+        CAPTURE(run.err);
+        REQUIRE(run.exitCode == 0);
+        CHECK_FALSE(fs::exists(fs::path(out) / "summary.json"));
+        merge.push_back(out);
+    }
+    Words missing = merge;
+    missing.erase(missing.begin() + 2);
+    missing.insert(missing.end(), {"--out", folder / "merged"});
+    const Run incomplete = afterglow(missing);
+    CHECK(incomplete.exitCode == 3);
+    CHECK(isOneErrorLine(incomplete.err));
+    CHECK(incomplete.err.find("part 1 of 3 is missing") != std::string::npos);
+
+    merge.insert(merge.end(), {"--out", folder / "merged"});
+    const Run run = afterglow(merge);
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    checkSameRun(folder / "whole", folder / "merged");
+
+    // A part of another run is refused by name.
+    REQUIRE(experiment({file, "--part", "1/3", "--spp", "8"}, folder / "part1").exitCode == 0);
+    const Run mixed = afterglow(merge);
+    CHECK(mixed.exitCode == 3);
+    CHECK(isOneErrorLine(mixed.err));
+    CHECK(mixed.err.find("part1/experiment.json: this is a part of another run than") !=
+          std::string::npos);
+}
+
+TEST_CASE("a run that was interrupted leaves no half file and goes on where it was") {
+    const TemporaryFolder folder;
+    const std::string file = eventful(folder);
+    REQUIRE(experiment({file}, folder / "whole").exitCode == 0);
+
+    // The first variant is made, the second is then stopped in its middle.
+    REQUIRE(experiment({file, "--filter", "fixed"}, folder / "cut").exitCode == 0);
+    const auto made = fs::last_write_time(folder / "cut/fixed/frame_0003.png");
+    fs::remove(folder / "cut/experiment.json");
+    fs::remove(folder / "cut/summary.json");
+    std::string command = "timeout -s INT 0.6 \"$AFTERGLOW_BIN\"";
+    for (const std::string& word : experimentWords({file, "--spp", "4096"}, folder / "long"))
+        command += " '" + word + "'";
+    const int status =
+        std::system((command + " >/dev/null 2>'" + std::string(folder / "err") + "'").c_str());
+    CHECK(WEXITSTATUS(status) == 124); // of timeout: it had to ask
+    CHECK(bytesOf(folder / "err") ==
+          "afterglow: interrupted; the same command goes on from here\n");
+    CHECK_FALSE(fs::exists(folder / "long/summary.json"));
+    if (fs::exists(folder / "long"))
+        for (const std::string& name : filesIn(folder / "long")) {
+            CAPTURE(name);
+            const bool isWhole =
+                name.ends_with(".png") || name.ends_with(".json") || name.ends_with(".csv");
+            CHECK(isWhole);
+        }
+
+    REQUIRE(experiment({file}, folder / "cut").exitCode == 0);
+    checkSameRun(folder / "whole", folder / "cut");
+    CHECK(fs::last_write_time(folder / "cut/fixed/frame_0003.png") == made);
+
+    // What is finished is told again and not made again, unless that is asked for.
+    const auto before = fs::last_write_time(folder / "cut/asvgf/frame_0003.png");
+    const Run again = experiment({file}, folder / "cut");
+    CHECK(again.exitCode == 0);
+    CHECK(again.out.find("asvgf") != std::string::npos);
+    CHECK(fs::last_write_time(folder / "cut/asvgf/frame_0003.png") == before);
+    REQUIRE(experiment({file, "--fresh"}, folder / "cut").exitCode == 0);
+    CHECK(fs::last_write_time(folder / "cut/asvgf/frame_0003.png") != before);
+}
+
+TEST_CASE("another experiment in the same folder is not taken for the one that was there") {
+    const TemporaryFolder folder;
+    const std::string file = eventful(folder);
+    REQUIRE(experiment({file}, folder / "a").exitCode == 0);
+    const auto first = summaryIn(folder / "a");
+    REQUIRE(experiment({file, "--set", "alpha=0.5"}, folder / "a").exitCode == 0);
+    CHECK(summaryIn(folder / "a").at("fixed").at("rmse_settled") >
+          first.at("fixed").at("rmse_settled"));
+    REQUIRE(experiment({file}, folder / "a").exitCode == 0);
+    CHECK(summaryIn(folder / "a") == first);
+}
+
+TEST_CASE("references are kept in the cache that is named, and give the same bytes from there") {
+    const TemporaryFolder folder;
+    const std::string file = eventful(folder), cache = folder / "cache";
+    const auto run = [&](const std::string& out, const Words& more) {
+        Words words{"experiment", file, "--context", "osmesa", "--out", out};
+        words.insert(words.end(), more.begin(), more.end());
+        return afterglow(words);
+    };
+    REQUIRE(run(folder / "plain", {"--no-cache"}).exitCode == 0);
+    REQUIRE(run(folder / "first", {"--cache", cache}).exitCode == 0);
+    const auto entries = filesIn(cache);
+    // 7 moments; what lit the surfaces of the 4 frames in which the mover moves, a frame before
+    CHECK(entries.size() == 2 * (7 + 4));
+    REQUIRE(run(folder / "second", {"--cache", cache}).exitCode == 0);
+    CHECK(filesIn(cache) == entries);
+    checkSameRun(folder / "plain", folder / "first");
+    checkSameRun(folder / "plain", folder / "second");
+    const Run both = run(folder / "x", {"--cache", cache, "--no-cache"});
+    CHECK(both.exitCode == 2);
+}
+
+TEST_CASE("several experiments get a folder each and one page") {
+    const TemporaryFolder folder;
+    const std::string a = eventful(folder, "first"), b = eventful(folder, "second");
+    const Run run = experiment({a, b, "--frames", "12"}, folder / "suite");
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    for (const char* name : {"first", "second"})
+        CHECK(fs::exists(folder / ("suite/" + std::string(name) + "/summary.json")));
+    const std::string page = bytesOf(folder / "suite/report.html");
+    CHECK(page.find("first") != std::string::npos);
+    CHECK(page.find("second") != std::string::npos);
+    CHECK(experiment({a, a}, folder / "twice").exitCode == 2);
+
+    fs::remove(folder / "suite/report.html");
+    REQUIRE(afterglow({"report", folder / "suite"}).exitCode == 0);
+    CHECK((bytesOf(folder / "suite/report.html") == page));
+    const Run nothing = afterglow({"report", folder / "empty"});
+    CHECK(nothing.exitCode == 3);
+    CHECK(isOneErrorLine(nothing.err));
+}
+
+TEST_CASE("a sweep runs every variant with every value, and lag falls where noise rises") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("off.json", R"({
+    "name": "off", "scene": "tiny", "size": [61, 37], "frames": 72, "signal": "shadows",
+    "variants": ["fixed", "asvgf"], "referenceSamples": 64, "settledWindow": 12,
+    "timeline": [{ "frame": 30, "light": "key", "on": false }]})");
+    const Run run = afterglow({"sweep", file, "--over", "alpha=0.1,0.2,0.4", "--context", "osmesa",
+                               "--no-cache", "--out", folder / "out"});
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    const auto variants = summaryIn(folder / "out");
+    REQUIRE(variants.size() == 6);
+    CHECK(variants.at("fixed-alpha-0.1").at("sweep") ==
+          nlohmann::json({{"variant", "fixed"}, {"key", "alpha"}, {"value", "0.1"}}));
+    const auto of = [&](const std::string& name, const char* key) {
+        return variants.at(name).at(key).get<double>();
+    };
+    // 0.9^22, 0.8^11 and 0.6^5 are the first powers below 0.1.
+    CHECK(of("fixed-alpha-0.1", "t90") == 21);
+    CHECK(of("fixed-alpha-0.2", "t90") == 10);
+    CHECK(of("fixed-alpha-0.4", "t90") == 4);
+    CHECK(of("fixed-alpha-0.1", "rmse_settled") < of("fixed-alpha-0.2", "rmse_settled"));
+    CHECK(of("fixed-alpha-0.2", "rmse_settled") < of("fixed-alpha-0.4", "rmse_settled"));
+    for (const char* value : {"0.1", "0.2", "0.4"})
+        CHECK(of(std::string("asvgf-alpha-") + value, "t90") <= 1);
+    CHECK(afterglow({"sweep", file, "--over", "alhpa=1", "--out", folder / "x"}).exitCode == 2);
+    CHECK(afterglow({"sweep", file, "--over", "alpha=7", "--out", folder / "x"}).exitCode == 2);
+    CHECK_FALSE(fs::exists(folder / "x"));
+}
+
+} // namespace afterglow::test
