@@ -79,7 +79,7 @@ const std::array kRows = std::to_array<Row>({
      [](R r) { return AovSource{r.targets().visibility.current()}; }, always},
     {{"moments", "running means of the raw luminance and of its square", "XY"},
      [](R r) { return AovSource{r.targets().moments.current()}; }, whereAccumulated},
-    {{"history", "effective length of the history, frames", "Y"},
+    {{"history", "length of the history as the history law counts it, frames", "Y"},
      [](R r) { return AovSource{r.targets().moments.current(), 2}; }, whereAccumulated},
     {{"alpha", "weight of the newest frame in the blend, [0, 1]", "Y"},
      [](R r) { return AovSource{r.targets().control, 1}; }, whereAccumulated},

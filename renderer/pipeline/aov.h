@@ -7,7 +7,8 @@
 
 namespace afterglow {
 
-/// An arbitrary output variable: one image of the frame that can be looked at and written to a file.
+/// An arbitrary output variable: one image of the frame that can be looked at and written to a
+/// file.
 struct AovInfo {
     std::string_view name;
     std::string_view meaning;  ///< with its unit

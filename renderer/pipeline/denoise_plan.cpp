@@ -25,6 +25,8 @@ void addConfidence(DenoisePlan& plan, const DenoiserSettings& settings) {
     plan.gradientStridesLinear = true;
     plan.gradientAbsolute = true;
     plan.gradientLuminanceStop = false;
+    // Its cut is of a history as long as it counts for, not of all frames that were ever blended.
+    plan.historyLaw = gpu::kHistoryEffective;
 }
 
 } // namespace
@@ -32,6 +34,8 @@ void addConfidence(DenoisePlan& plan, const DenoiserSettings& settings) {
 DenoisePlan makePlan(Filter filter, const DenoiserSettings& settings) {
     DenoisePlan plan;
     plan.accumulate = filter != Filter::None;
+    if (plan.accumulate)
+        plan.historyLaw = settings.temporal.historyLaw;
     plan.carrySamples = settings.alwaysCarrySamples != 0;
     if (filter != Filter::None && filter != Filter::Fixed) {
         plan.atrousIterations = settings.atrousIterations;

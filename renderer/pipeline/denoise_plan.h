@@ -11,9 +11,10 @@ struct DenoisePlan {
     bool carrySamples = false;   ///< shade some of the last frame's samples again, with their seeds
     bool useLambda = false;      ///< lambda per pixel, from the gradient of those samples
     bool usePercentiles = false; ///< lambda per pixel, from percentiles of the raw luminance
-    bool cutHistory = false;     ///< lambda cuts the history length instead of blending
-    bool clampHistory = false;   ///< to the neighborhood of the raw signal
-    int gradientIterations = 0;  ///< of the reconstruction of the gradient
+    int historyLaw = gpu::kHistoryEffective; ///< how its length follows
+    bool cutHistory = false;                 ///< lambda cuts the history length instead of blending
+    bool clampHistory = false;               ///< to the neighborhood of the raw signal
+    int gradientIterations = 0;              ///< of the reconstruction of the gradient
     Kernel gradientKernel = Kernel::B3Spline5x5; ///< of each of them
     bool gradientStridesLinear = false;          ///< steps of 1, 2, 3, ... instead of 1, 2, 4, ...
     bool gradientAbsolute = false;               ///< |delta| instead of delta

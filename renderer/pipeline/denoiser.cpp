@@ -57,6 +57,7 @@ void Denoiser::accumulate(FrameContext& frame, const DenoisePlan& plan, RenderTa
     params.lambdaSource = plan.useLambda        ? gpu::kLambdaFromGradient
                           : plan.usePercentiles ? gpu::kLambdaFromRange
                                                 : gpu::kLambdaFromNothing;
+    params.historyLaw = plan.historyLaw;
     params.lambdaUse = plan.cutHistory ? gpu::kLambdaCuts : gpu::kLambdaBlends;
     params.clampRadius = plan.clampHistory ? settings.temporal.clampRadius : -1;
     // What is fed back unfiltered is the history as it leaves this pass.

@@ -50,8 +50,8 @@ const std::array kFields = std::to_array<Field>({
      "frames", "own choice", 1.0, 1024.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.maxHistory)},
     {"temporal", "historyLaw", "History law",
      "How the history length follows alpha: the effective sample count, frames whatever "
-     "lambda is (Q2VKPT), or cut by the tenth power of 1 - lambda (Q2RTX).",
-     "", "own choice: the exact count", 0.0, 2.0, false, kHistoryLawNames,
+     "lambda is (Q2VKPT), or frames cut by the tenth power of 1 - lambda (Q2RTX).",
+     "", "Q2RTX; chosen by measurement, docs/results.md", 0.0, 2.0, false, kHistoryLawNames,
      AFTERGLOW_FIELD(denoiser.temporal.historyLaw)},
     {"temporal", "depthTolerance", "Depth tolerance",
      "A surface is the same one as before if its depth differs by at most this many times "

@@ -32,7 +32,7 @@ struct DenoiserSettings {
                                  .depthTolerance = 2.0f,
                                  .normalTolerance = 0.9f,
                                  .lambdaFetch = gpu::kLambdaMax,
-                                 .historyLaw = gpu::kHistoryEffective,
+                                 .historyLaw = gpu::kHistoryPower,
                                  .lambdaSource = gpu::kLambdaFromNothing, // set by the plan
                                  .lambdaUse = gpu::kLambdaBlends,
                                  .percentileSlope = 4.0f,

@@ -23,9 +23,11 @@ constexpr int kSettle = 40; // frames before the event
 constexpr int kWatch = 30;  // frames from the event on
 
 /// The same raw frames for every filter: gradient samples are merged whether they are used or not.
+/// Histories are counted as history confidence counts them.
 Settings onMergedFrames(Filter filter, Signal signal = Signal::Both) {
     Settings settings = settingsOf(filter, signal);
     settings.denoiser.alwaysCarrySamples = 1;
+    settings.denoiser.temporal.historyLaw = gpu::kHistoryEffective;
     return settings;
 }
 
@@ -156,7 +158,7 @@ TEST_CASE("where nothing changes, history confidence is SVGF, bit for bit") {
 }
 
 TEST_CASE(
-    "history confidence is A-SVGF with five other settings, and SVGF with lambda forced to 0") {
+    "history confidence is A-SVGF with six other settings, and SVGF with lambda forced to 0") {
     const GlCheck noGlMessages;
     Settings asvgf = settingsOf(Filter::Asvgf);
     asvgf.denoiser.temporal.lambdaUse = gpu::kLambdaCuts;
@@ -164,6 +166,7 @@ TEST_CASE(
     asvgf.denoiser.gradientStrides = gpu::kStridesLinear;
     asvgf.denoiser.gradientLuminanceStop = 0;
     asvgf.denoiser.gradientKernel = int(Kernel::B3Spline5x5);
+    asvgf.denoiser.temporal.historyLaw = gpu::kHistoryEffective;
     checkEqualInMotion(settingsOf(Filter::Confidence), asvgf);
 
     Settings certain = settingsOf(Filter::Confidence);

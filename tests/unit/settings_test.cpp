@@ -101,8 +101,11 @@ TEST_CASE("filters differ in the rows of one plan") {
     const DenoisePlan svgf = makePlan(Filter::Svgf, settings),
                       asvgf = makePlan(Filter::Asvgf, settings);
     CHECK(none == DenoisePlan{});
-    CHECK(fixed == DenoisePlan{.accumulate = true});
-    CHECK(svgf == DenoisePlan{.accumulate = true, .atrousIterations = 5, .feedbackIteration = 1});
+    CHECK(fixed == DenoisePlan{.accumulate = true, .historyLaw = gpu::kHistoryPower});
+    CHECK(svgf == DenoisePlan{.accumulate = true,
+                              .historyLaw = gpu::kHistoryPower,
+                              .atrousIterations = 5,
+                              .feedbackIteration = 1});
     DenoisePlan adaptive = svgf;
     adaptive.carrySamples = adaptive.useLambda = true;
     adaptive.gradientIterations = 5;
@@ -119,6 +122,7 @@ TEST_CASE("filters differ in the rows of one plan") {
     confidence.gradientStridesLinear = true;
     confidence.gradientLuminanceStop = false;
     confidence.gradientKernel = Kernel::B3Spline5x5;
+    confidence.historyLaw = gpu::kHistoryEffective;
     CHECK(makePlan(Filter::Confidence, settings) == confidence);
 }
 
@@ -135,6 +139,7 @@ TEST_CASE("every filter has a name of its own, a sentence, and a place in the li
 TEST_CASE("what confidence does differently can be set for A-SVGF, piece by piece") {
     DenoiserSettings settings;
     settings.temporal.lambdaUse = gpu::kLambdaCuts;
+    settings.temporal.historyLaw = gpu::kHistoryEffective;
     settings.gradient.magnitude = gpu::kGradientAbsolute;
     settings.gradientStrides = gpu::kStridesLinear;
     settings.gradientLuminanceStop = 0;
