@@ -101,11 +101,11 @@ function makeMachine(run) {
 
 /// Experiments down, variants across, for the measures one looks at first.
 function makeOverview(runs) {
-    const columns = ['t90', 'ghost_frames', 'flip_settled'].map((key) => summaryColumns.find((column) => column.key === key))
+    const columns = ['t90', 'ghost_frames', 'rmse_moving', 'flip_settled'].map((key) => summaryColumns.find((column) => column.key === key))
         .filter((column) => runs.some((run) => run.variants.some((variant) => variant.summary[column.key] !== undefined)));
     const inAll = (run) => run.variants.filter((variant) => !variant.summary.sweep);
     const names = [...new Set(runs.flatMap((run) => inAll(run).map(({ name }) => name)))];
-    const titles = { t90: 't90, frames', ghost_frames: 'ghost frames', flip_settled: 'settled FLIP' };
+    const titles = { t90: 't90, frames', ghost_frames: 'ghost frames', rmse_moving: 'RMSE moving', flip_settled: 'settled FLIP' };
     const most = new Map(columns.map(({ key }) => [key, Math.max(...runs.flatMap((run) =>
         inAll(run).map((variant) => variant.summary[key]).filter(Number.isFinite)), 1e-9)]));
     const head = [
@@ -125,7 +125,7 @@ function makeOverview(runs) {
             return make('td', { class: `cell ${i ? '' : 'starts'}` }, make('a', {
                 href: `#${run.id}`, class: heat === null ? 'blank' : never ? 'never' : null, style: heat === null ? null : `--heat: ${(100 * heat).toFixed(0)}%`,
                 'aria-label': `${run.name}, ${name}, ${titles[key]}: ${variant ? text(value ?? null, variant.summary) : 'not run'}`,
-            }, variant ? (key === 'flip_settled' ? fixedDigits(3) : text)(value ?? null, variant.summary) : '\u2013'));
+            }, variant ? (key === 'flip_settled' || key === 'rmse_moving' ? fixedDigits(3) : text)(value ?? null, variant.summary) : '\u2013'));
         }))));
     return make('section', { class: 'card overview' }, make('h2', {}, 'At a glance'), makeTable('Experiments and variants', head, rows),
         make('p', { class: 'hint' }, 'The stronger the color, the more lag or error. Every cell leads to its experiment.'));
