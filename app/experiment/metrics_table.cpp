@@ -65,7 +65,7 @@ std::string MetricsTable::csv(const std::vector<std::string>& variants) const {
 
 MetricsTable MetricsTable::parse(std::string_view csv, std::string_view source) {
     MetricsTable table;
-    for (int number = 1; !csv.empty(); ++number) {
+    for (int number = 1; number == 1 || !csv.empty(); ++number) {
         const std::size_t end = std::min(csv.find('\n'), csv.size());
         std::string_view line = csv.substr(0, end);
         csv.remove_prefix(std::min(end + 1, csv.size()));

@@ -19,7 +19,13 @@ public:
     /// One value a frame; none where there is no row.
     std::vector<std::optional<double>> curve(std::string_view variant, std::string_view metric,
                                              int frames) const;
-    bool empty() const { return rows_.empty(); }
+    struct Row {
+        std::string variant;
+        int frame;
+        std::string metric;
+        double value;
+    };
+    const std::vector<Row>& rows() const { return rows_; }
 
     /// Sorted by the order of `variants`, then by frame; rows of a frame stay in their order.
     std::string csv(const std::vector<std::string>& variants) const;
@@ -27,12 +33,6 @@ public:
     static MetricsTable parse(std::string_view csv, std::string_view source);
 
 private:
-    struct Row {
-        std::string variant;
-        int frame;
-        std::string metric;
-        double value;
-    };
     std::vector<Row> rows_;
 };
 

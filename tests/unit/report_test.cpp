@@ -56,7 +56,7 @@ void writeRun(const fs::path& folder, const std::string& name = "small",
     writeFileAtomically(folder / "metrics.csv", "variant,frame,metric,value\n" + variant +
                                                     ",0,rmse,0.125\n" + variant + ",1,rmse,nan\n" +
                                                     variant + ",3,rmse,-1e-9\n" + variant +
-                                                    ",2,psnr,inf\n" + variant + ",3,psnr,\n");
+                                                    ",2,psnr,inf\n" + variant + ",3,psnr,nan\n");
     writePng(folder / variant / "frame_0000.png", filled({250, 10, 10, 255}));
     writePng(folder / variant / "frame_0002.png", filled({10, 250, 10, 255}));
     writePng(folder / variant / "maps" / "lambda_0002.png", filled({128, 128, 128, 255}, {3, 2}));
@@ -245,15 +245,16 @@ TEST_CASE("a malformed file of a run is named with the place") {
     CHECK(fault("summary.json", "{\"variants\": {}}").find("svgf") != std::string::npos);
     CHECK(fault("timing.json", "[]") != "");
     CHECK(fault("svgf/frame_0000.png", "GIF89a") == ": is not a PNG");
-    CHECK(fault("metrics.csv", "").find(":1: expected the heading") == 0);
+    CHECK(fault("metrics.csv", "").find(":1: not a row of") == 0);
     CHECK(fault("metrics.csv", "frame,value\n").find(":1: ") == 0);
     const std::string head = "variant,frame,metric,value\n";
-    CHECK(fault("metrics.csv", head + "svgf,0,rmse\n").find(":2: expected four fields") == 0);
-    CHECK(fault("metrics.csv", head + "svgf,0,rmse,1,2\n").find(":2: expected four fields") == 0);
+    CHECK(fault("metrics.csv", head + "svgf,0,rmse\n").find(":2: not a row of") == 0);
+    CHECK(fault("metrics.csv", head + "svgf,0,rmse,1,2\n").find(":2: not a row of") == 0);
     CHECK(fault("metrics.csv", head + "svgf,0,rmse,1\nsvgf,x,rmse,1\n").find(":3: ") == 0);
-    CHECK(fault("metrics.csv", head + "svgf,0,rmse,much\n").find("\"much\"") != std::string::npos);
+    CHECK(fault("metrics.csv", head + "svgf,0,rmse,much\n").find(":2: ") == 0);
     CHECK(fault("metrics.csv", head + "other,0,rmse,1\n").find("\"other\"") != std::string::npos);
-    CHECK(fault("metrics.csv", head + "svgf,1,rmse,1\nsvgf,1,rmse,2\n").find(":3: ") == 0);
+    CHECK(fault("metrics.csv", head + "svgf,1,rmse,1\nsvgf,1,rmse,2\n")
+              .find("frame 1 of rmse is not later") != std::string::npos);
 }
 
 TEST_CASE("a variant cannot name a folder outside its run") {
