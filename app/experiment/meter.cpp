@@ -47,6 +47,14 @@ Mask both(const Mask& a, const Mask& b) {
     return result;
 }
 
+/// 0 where the mask is.
+Image<float> within(Image<float> image, const Mask& mask) {
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+        if (mask.pixels()[i] == 0)
+            image.pixels()[i] = 0.0f;
+    return image;
+}
+
 } // namespace
 
 FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl) {
@@ -208,7 +216,7 @@ void Meter::measureControl(int frame, const FrameImages& images) {
         }
         if (maps_) {
             maps_->emplace_back("alpha", images.alpha);
-            maps_->emplace_back("alpha_ideal", ideal);
+            maps_->emplace_back("alpha_ideal", within(ideal, truth.foreground));
         }
     }
 }

@@ -22,6 +22,8 @@ struct StratumSums {
     bool isAbove(float floor) const { return greater > double(floor) * pixels; }
 };
 
+constexpr double kRight = 1e-4; ///< a history is right if it is off by less than this part of it
+
 template <class Visit>
 void forEachStratum(const Image<float>& now, const Image<float>& before, const Mask& counts,
                     Visit visit) {
@@ -73,7 +75,9 @@ Image<float> idealAlpha(const Image<float>& history, const Image<float>& truth,
             continue;
         const double error = double(history.pixels()[i]) - double(truth.pixels()[i]);
         const double e2 = error * error, s2 = std::max(0.0f, variance.pixels()[i]);
-        alpha.pixels()[i] = e2 > 0.0 ? float(e2 / (e2 + s2)) : 0.0f;
+        // Without noise the last bits of an average would decide between 0 and 1.
+        const double rounding = kRight * std::max(history.pixels()[i], truth.pixels()[i]);
+        alpha.pixels()[i] = std::abs(error) > rounding ? float(e2 / (e2 + s2)) : 0.0f;
     }
     return alpha;
 }

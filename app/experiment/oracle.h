@@ -19,8 +19,9 @@ Image<float> idealLambda(const Image<float>& now, const Image<float>& before, co
 
 /// alpha* = e^2 / (e^2 + s^2): the weight of the newest sample that leaves the least expected
 /// error, where e is the error that the history has and s^2 the variance of a new sample. 0 where
-/// the history is right, 1 where a new sample is; 1 also where there is no history. `history` is
-/// the luminance that was fetched, `truth` the converged one, `variance` that of one sample.
+/// the history is right (to 1e-4 of its value), 1 where a new sample is; 1 also where there is no
+/// history. `history` is the luminance that was fetched, `truth` the converged one, `variance` that
+/// of one sample.
 Image<float> idealAlpha(const Image<float>& history, const Image<float>& truth,
                         const Image<float>& variance, const Mask& hasHistory);
 

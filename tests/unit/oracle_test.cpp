@@ -107,6 +107,9 @@ TEST_CASE("the ideal alpha is 0 for a perfect history and 1 for a perfect sample
     CHECK(first(even) == Approx(0.5f));
     CHECK(first(none) == 1.0f);
     CHECK(first(nothing) == 0.0f);
+    // Rounding is no error.
+    const Image<float> rounded = idealAlpha(Image<float>(kSize, 1.00001f), truth, still, kAll);
+    CHECK(first(rounded) == 0.0f);
 }
 
 TEST_CASE("agreement is told by its mean, its bias and its RMSE, over what counts") {
