@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Makes docs/results.md and its pictures: runs the suite, the competitors, the options and a sweep.
+# Usage: docs/make_results.sh [PROGRAM [FOLDER]]    (half an hour on two cores without a GPU; what is
+# in FOLDER already is not run again)
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+program=${1:-build/release/bin/afterglow}
+folder=${2:-out/results}
+run() { "$program" "$@" --size 320x180 --context osmesa >/dev/null; }
+
+started=$SECONDS
+run experiment all --out "$folder/suite"
+suite=$((SECONDS - started))
+run experiment light-off light-on light-dim fill-light light-color sparse-light light-move object-move \
+    --filter svgf,asvgf,clamp,percentile,confidence --out "$folder/competitors"
+run experiment fill-light light-dim light-on \
+    --filter asvgf,asvgf:lambdaFetch=nearest,asvgf:lambdaFetch=bilinear,asvgf:gradientKernel=b3-5x5,asvgf:gradientIterations=3,asvgf:historyLaw=frames,asvgf:historyLaw=effective,asvgf:alphaMoments=0.1,asvgf:alphaMoments=0.6,asvgf:feedbackIteration=0,asvgf:atrousIterations=3 \
+    --out "$folder/options"
+run sweep fill-light --over alpha=0.05,0.1,0.2,0.4,0.8 --filter fixed,svgf,asvgf,percentile --out "$folder/sweep"
+
+/usr/bin/python3 docs/make_results.py "$folder" >docs/results.md
+mkdir -p docs/images/results
+for name in light-off fill-light light-color sparse-light; do
+    ffmpeg -v error -y -i "$folder/suite/$name/contact_sheet.png" -vf scale=1400:-2 -q:v 4 "docs/images/results/$name.jpg"
+done
+node docs/report_picture.mjs "$folder/suite/fill-light/report.html" docs/images/report.png
+node docs/report_picture.mjs "$folder/sweep/report.html" docs/images/results/sweep.png "Noise against lag"
+ffmpeg -v error -y -i "$folder/suite/light-off/contact_sheet.png" -vf scale=1800:-2:flags=lanczos docs/images/light-off.png
+echo "docs/results.md; the suite took $suite s"
