@@ -136,12 +136,13 @@ void renderReference(const RenderOptions& options, Headless& headless, std::size
     const int samples = *options.samples;
     FrameWriter writer(options, folder);
     const auto lights = lightsAt(scene, options.lights, 0);
-    const Convergence result = [&] {
+    const FrameInput input = inputAt(options, scene, camera, 0, lights);
+    const Reference result = [&] {
         Progress progress(samples);
-        return converge(renderer, inputAt(options, scene, camera, 0, lights), options.settings,
-                        samples, [&](int count) { progress.advance(count, "samples"); });
+        return converge(renderer, input, input, options.settings, samples,
+                        [&](int count) { progress.advance(count, "samples"); });
     }();
-    writer.write(renderer, *result.display, 0);
+    writer.write(renderer, renderer.targets().display, 0);
     Json run = describeRun(options, headless, camera);
     run["samples"] = samples;
     run["residual_rmse"] = result.residual;

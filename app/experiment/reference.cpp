@@ -68,52 +68,6 @@ double residualOf(double distance, int samples) {
     return distance / std::sqrt(n / m - 1.0);
 }
 
-struct Converged {
-    const GpuTexture* display = nullptr;
-    Image<glm::vec4> lit, litOfHalf; ///< the second is empty for a single sample
-    double milliseconds = 0.0;
-    std::uint64_t rays = 0;
-};
-
-Converged convergeBoth(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
-                       const Settings& settings, int samples,
-                       const std::function<void(int)>& advanced) {
-    if (samples < 1)
-        throw std::logic_error("a reference needs at least one sample");
-    Converged result;
-    const auto start = Clock::now();
-    renderer.beginReference(seen, world, settings);
-    Sampling sampling(renderer, advanced);
-    if (samples > 1) {
-        sampling.addUpTo(samples / 2);
-        renderer.finishReference();
-        result.litOfHalf = litRadiance(renderer);
-    }
-    sampling.addUpTo(samples);
-    result.display = &renderer.finishReference();
-    glFinish();
-    result.milliseconds = millisecondsSince(start);
-    result.rays = sampling.rays();
-    result.lit = litRadiance(renderer);
-    return result;
-}
-
-Reference makeReference(Renderer& renderer, const ReferenceRequest& request,
-                        const std::function<void(int)>& advanced) {
-    const Converged converged = convergeBoth(renderer, request.seen, request.world,
-                                             request.settings, request.samples, advanced);
-    Reference reference;
-    reference.signal = renderer.filteredSignal().read<glm::vec4>();
-    reference.rays = converged.rays;
-    reference.milliseconds = converged.milliseconds;
-    reference.samples = request.samples;
-    const Mask foreground = foregroundOf(renderer);
-    if (request.samples > 1 && countOf(foreground) > 0)
-        reference.residual =
-            residualOf(rmse(converged.litOfHalf, converged.lit, &foreground), request.samples);
-    return reference;
-}
-
 /// More than the moments that one experiment looks back at.
 constexpr std::size_t kKeptBytes = std::size_t(256) << 20;
 
@@ -140,23 +94,32 @@ Image<glm::vec4> litRadiance(const Renderer& renderer) {
     return lit;
 }
 
-Image<float> litLuminance(const Renderer& renderer) {
-    return luminanceOf(litRadiance(renderer));
-}
-
-Convergence converge(Renderer& renderer, const FrameInput& input, const Settings& settings,
-                     int samples, const std::function<void(int)>& advanced) {
-    const Converged converged = convergeBoth(renderer, input, input, settings, samples, advanced);
-    Convergence result{.display = converged.display,
-                       .lit = luminanceOf(converged.lit),
-                       .residual = 0.0,
-                       .milliseconds = converged.milliseconds,
-                       .rays = converged.rays};
+Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                   const Settings& settings, int samples,
+                   const std::function<void(int)>& advanced) {
+    if (samples < 1)
+        throw std::logic_error("a reference needs at least one sample");
+    Reference reference;
+    reference.samples = samples;
+    const auto start = Clock::now();
+    renderer.beginReference(seen, world, settings);
+    Sampling sampling(renderer, advanced);
+    Image<glm::vec4> half;
+    if (samples > 1) {
+        sampling.addUpTo(samples / 2);
+        renderer.finishReference();
+        half = litRadiance(renderer);
+    }
+    sampling.addUpTo(samples);
+    renderer.finishReference();
+    glFinish();
+    reference.milliseconds = millisecondsSince(start);
+    reference.rays = sampling.rays();
+    reference.signal = renderer.filteredSignal().read<glm::vec4>();
     const Mask foreground = foregroundOf(renderer);
     if (samples > 1 && countOf(foreground) > 0)
-        result.residual =
-            residualOf(rmse(luminanceOf(converged.litOfHalf), result.lit, &foreground), samples);
-    return result;
+        reference.residual = residualOf(rmse(half, litRadiance(renderer), &foreground), samples);
+    return reference;
 }
 
 ReferenceStore::ReferenceStore(ReferenceMaker maker, std::optional<ReferenceCache> cache)
@@ -186,7 +149,7 @@ Reference ReferenceStore::get(Renderer& renderer, const FrameInput& seen, const 
             advanced(samples);
         return *std::move(known);
     }
-    Reference reference = makeReference(renderer, request, advanced);
+    Reference reference = converge(renderer, seen, world, settings, samples, advanced);
     ++counts_.converged;
     writeCache(key, reference, request);
     keep(key, reference);

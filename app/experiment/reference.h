@@ -16,21 +16,13 @@ Mask foregroundOf(const Renderer& renderer);
 /// alpha is 0. Without emission, which no filter touches: a light that is seen directly is so much
 /// brighter than all it shines on that its going out would be all there is to measure.
 Image<glm::vec4> litRadiance(const Renderer& renderer);
-Image<float> litLuminance(const Renderer& renderer); ///< of litRadiance()
 
-/// A converged image and how far it can be trusted.
-struct Convergence {
-    const GpuTexture* display = nullptr; ///< the renderer's; until its next frame
-    Image<float> lit;                    ///< litLuminance()
-    double residual = 0.0;               ///< of `lit`, as Reference::residual
-    double milliseconds = 0.0;           ///< of tracing
-    std::uint64_t rays = 0;
-};
-
-/// Averages so many samples a pixel at one moment. The renderer's histories are void afterwards.
+/// Averages so many samples a pixel, at least 1, of the surfaces of `seen` in the light of `world`:
+/// see Renderer::beginReference(). Afterwards the renderer shows it; its histories are void.
 /// `advanced` is told of every portion of samples as it is done.
-Convergence converge(Renderer& renderer, const FrameInput& input, const Settings& settings,
-                     int samples, const std::function<void(int)>& advanced = {});
+Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                   const Settings& settings, int samples,
+                   const std::function<void(int)>& advanced = {});
 
 /// References, each converged once: those of this run are kept in memory as far as there is room,
 /// and all in the cache, if there is one.

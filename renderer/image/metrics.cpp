@@ -176,15 +176,4 @@ double Flicker::mean(const Mask* mask) const {
     return sum / double(3 * count);
 }
 
-double flicker(const std::vector<Image<float>>& frames, const Mask* mask) {
-    Flicker result;
-    for (const Image<float>& frame : frames) {
-        Image<glm::vec4> gray(frame.size());
-        std::transform(frame.pixels().begin(), frame.pixels().end(), gray.pixels().begin(),
-                       [](float value) { return glm::vec4(value); });
-        result.add(gray);
-    }
-    return result.mean(mask);
-}
-
 } // namespace afterglow

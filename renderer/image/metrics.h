@@ -79,7 +79,4 @@ private:
     Image<glm::dvec3> squares_; ///< the sum of the squared differences from the mean
 };
 
-/// Flicker of gray frames that one has at hand. At least one frame.
-double flicker(const std::vector<Image<float>>& frames, const Mask* mask = nullptr);
-
 } // namespace afterglow
