@@ -1,5 +1,7 @@
 #include "app/commands/exchange_words.h"
 
+#include "app/commands/experiment_words.h"
+
 #include "app/commands/arguments.h"
 #include "renderer/base/error.h"
 
@@ -54,11 +56,7 @@ ImportOptions ImportWords::parse() const {
     options.only = only;
     if (samples)
         options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
-    if (cache && noCache)
-        throw UsageError("--cache and --no-cache exclude each other");
-    options.cache.use = !noCache;
-    if (cache)
-        options.cache.folder = *cache;
+    options.cache = parseCache(cache, noCache);
     if (context)
         options.context = contextFromName(*context);
     options.out = *out;

@@ -47,6 +47,15 @@ void addCommon(CLI::App& app, ExperimentWords& words) {
 
 } // namespace
 
+CacheOptions parseCache(const Text& folder, bool none) {
+    if (folder && none)
+        throw UsageError("--cache and --no-cache exclude each other");
+    CacheOptions options{.use = !none};
+    if (folder)
+        options.folder = *folder;
+    return options;
+}
+
 void ExperimentWords::addTo(CLI::App& app) {
     app.add_option("EXPERIMENT", experiments,
                    "Names (afterglow list experiments), .json files, or all")
@@ -89,11 +98,7 @@ ExperimentOptions ExperimentWords::parse() const {
     options.run.fresh = fresh;
     if (part)
         options.run.part = parsePart(*part);
-    if (cache && noCache)
-        throw UsageError("--cache and --no-cache exclude each other");
-    options.cache.use = !noCache;
-    if (cache)
-        options.cache.folder = *cache;
+    options.cache = parseCache(cache, noCache);
     if (context)
         options.context = contextFromName(*context);
     options.out = *out;

@@ -7,6 +7,9 @@ namespace afterglow {
 
 // The words of the commands that measure: experiment, sweep, merge and report.
 
+/// From --cache and --no-cache, which exclude each other.
+CacheOptions parseCache(const Text& folder, bool none);
+
 struct ExperimentWords {
     Texts experiments, settings;
     Text size, frames, samples, filters, part, cache, context, out;
