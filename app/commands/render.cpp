@@ -142,7 +142,7 @@ void renderReference(const RenderOptions& options, Headless& headless, std::size
         return converge(renderer, input, input, options.settings, samples,
                         [&](int count) { progress.advance(count, "samples"); });
     }();
-    writer.write(renderer, renderer.targets().display, 0);
+    writer.write(renderer, renderer.targets().filters[0].display, 0);
     Json run = describeRun(options, headless, camera);
     run["samples"] = samples;
     run["residual_rmse"] = result.residual;

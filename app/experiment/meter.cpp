@@ -27,7 +27,7 @@ Image<float> alphaOf(const Image<glm::vec4>& image) {
 /// Of the history that was fetched at each pixel: the temporal pass leaves it in the alpha of its
 /// blend, which is the history itself where nothing is fed back from the spatial filter.
 Image<float> historyLuminance(const Renderer& renderer, const Settings& settings) {
-    const RenderTargets& t = renderer.targets();
+    const FilterTargets& t = renderer.targets().filters[0];
     const DenoisePlan plan = makePlan(settings.filter, settings.denoiser);
     const GpuTexture& blend = plan.feedbackIteration == 0 ? t.color.current() : t.accumulated;
     return alphaOf(blend.read<glm::vec4>());
@@ -60,7 +60,7 @@ Image<float> within(Image<float> image, const Mask& mask) {
 FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl) {
     FrameImages images;
     images.lit = litRadiance(renderer);
-    images.display = renderer.targets().display.read<glm::u8vec4>();
+    images.display = renderer.targets().filters[0].display.read<glm::u8vec4>();
     const auto made = [&](std::string_view aov) {
         return withControl && isMadeBy(aovByName(aov), settings.filter, settings.denoiser);
     };

@@ -40,6 +40,7 @@ constexpr ImageDisplay kDisplays[] = {
     {"gradient_sample", kMapSigned, -0.5f, 0.5f, kRadiance},
     {"gradient_sample_max", kMapScalar, 0.0f, 1.0f, kRadiance},
     {"samples", kMapNumber, 0.0f, 9.0f, ""},
+    {"fate", kMapNumber, 0.0f, 7.0f, ""},
 };
 
 } // namespace

@@ -98,6 +98,32 @@ Image<Pixel> GpuTexture::read() const {
     return image;
 }
 
+template <class Pixel>
+Pixel GpuTexture::readAt(glm::ivec2 p) const {
+    checkPixel(*this, kPixelInfo<Pixel>);
+    if (p.x < 0 || p.y < 0 || p.x >= size_.x || p.y >= size_.y)
+        throw std::logic_error("texture " + label_ + " has no pixel " + text(p));
+    Pixel pixel;
+    const FormatInfo format = info(format_);
+    glGetTextureSubImage(id(), 0, p.x, p.y, 0, 1, 1, 1, format.layout, format.type,
+                         GLsizei(sizeof pixel), &pixel);
+    return pixel;
+}
+
+void GpuTexture::copyFrom(const GpuTexture& other) {
+    if (other.format_ != format_ || other.size_ != size_)
+        throw std::logic_error("texture " + label_ + " cannot take the pixels of " + other.label_ +
+                               ", which is of another kind");
+    glCopyImageSubData(other.id(), GL_TEXTURE_2D, 0, 0, 0, 0, id(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                       size_.x, size_.y, 1);
+}
+
+GpuTexture GpuTexture::copy() const {
+    GpuTexture twin(label_, format_, size_);
+    twin.copyFrom(*this);
+    return twin;
+}
+
 void GpuTexture::clear() {
     const FormatInfo format = info(format_);
     glClearTexImage(id(), 0, format.layout, format.type, nullptr);
@@ -105,7 +131,8 @@ void GpuTexture::clear() {
 
 #define INSTANTIATE(Pixel)                                                                         \
     template void GpuTexture::write(const Image<Pixel>&);                                          \
-    template Image<Pixel> GpuTexture::read() const;
+    template Image<Pixel> GpuTexture::read() const;                                                \
+    template Pixel GpuTexture::readAt(glm::ivec2) const;
 INSTANTIATE(float)
 INSTANTIATE(glm::vec2)
 INSTANTIATE(glm::vec4)

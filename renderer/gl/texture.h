@@ -40,7 +40,15 @@ public:
     template <class Pixel>
     Image<Pixel> read() const;
 
+    /// One pixel, inside the texture; as read().
+    template <class Pixel>
+    Pixel readAt(glm::ivec2 p) const;
+
     void clear(); ///< to zero
+    /// Takes all pixels of a texture of the same format and size; others are std::logic_error.
+    void copyFrom(const GpuTexture& other);
+    /// A texture of its own with the same label, format, size and pixels.
+    GpuTexture copy() const;
 
 private:
     GlObject<TextureKind> object_;

@@ -7,7 +7,7 @@ AtrousPass::AtrousPass(ShaderLibrary& shaders, Kernel kernel)
 
 void AtrousPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                      const gpu::EdgeStopping& params) {
-    const auto scope = frame.timer.scope("a-trous");
+    const auto scope = frame.pass("a-trous", {&out.filtered});
     program_.dispatch(out.filtered.size(), params,
                       {{"signal", in.signal}, {"guides", in.guides}, {"slope", in.slope}},
                       {{"filtered", out.filtered}});

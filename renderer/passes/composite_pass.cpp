@@ -6,7 +6,7 @@ CompositePass::CompositePass(ShaderLibrary& shaders)
     : program_(shaders.compute("post/composite.comp")) {}
 
 void CompositePass::run(FrameContext& frame, const Inputs& in, const Outputs& out) {
-    const auto scope = frame.timer.scope("composite");
+    const auto scope = frame.pass("composite", {&out.composed});
     program_.dispatch(out.composed.size(),
                       {{"signal", in.signal},
                        {"albedo", in.albedo},

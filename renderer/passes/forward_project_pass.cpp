@@ -4,32 +4,36 @@ namespace afterglow {
 
 ForwardProjectPass::ForwardProjectPass(ShaderLibrary& shaders)
     : claim_(shaders.compute("denoise/forward_claim.comp")),
-      merge_(shaders.compute("denoise/forward_merge.comp")) {}
+      merge_(shaders.compute("denoise/forward_merge.comp")),
+      mergeExtra_(shaders.compute("denoise/forward_merge.comp", {{"EXTRA_SAMPLES", "1"}})) {}
 
 void ForwardProjectPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs& in,
                              const Outputs& out) {
-    const auto scope = frame.timer.scope("forward projection");
+    const auto scope =
+        frame.pass("forward projection", {&out.visibility, &out.seeds, &out.samples});
     out.owners.clear();
     claim_.dispatch(out.owners.size(),
                     {{"previousVisibility", in.previousVisibility},
                      {"previousSeeds", in.previousSeeds},
-                     {"visibility", out.visibility},
+                     {"visibility", in.visibility},
                      {"vertices", scene.vertices},
                      {"triangles", scene.triangles},
                      {"instances", scene.instances}},
-                    {{"owners", out.owners}});
-    merge_.dispatch(out.owners.size(),
-                    {{"owners", out.owners},
-                     {"previousVisibility", in.previousVisibility},
-                     {"previousSeeds", in.previousSeeds},
-                     {"previousRaw", in.previousRaw},
-                     {"vertices", scene.vertices},
-                     {"triangles", scene.triangles},
-                     {"instances", scene.instances}},
-                    {{"visibility", out.visibility},
-                     {"seeds", out.seeds},
-                     {"samples", out.samples},
-                     {"counters", out.counters}});
+                    {{"owners", out.owners}, {"claims", out.claims}});
+    ComputeProgram& merge = &in.visibility == &out.visibility ? merge_ : mergeExtra_;
+    merge.dispatch(out.owners.size(),
+                   {{"owners", out.owners},
+                    {"claims", out.claims},
+                    {"previousVisibility", in.previousVisibility},
+                    {"previousSeeds", in.previousSeeds},
+                    {"previousRaw", in.previousRaw},
+                    {"vertices", scene.vertices},
+                    {"triangles", scene.triangles},
+                    {"instances", scene.instances}},
+                   {{"visibility", out.visibility},
+                    {"seeds", out.seeds},
+                    {"samples", out.samples},
+                    {"counters", out.counters}});
 }
 
 } // namespace afterglow

@@ -7,19 +7,22 @@
 namespace afterglow {
 
 /// Carries one surface sample of each stratum of the last frame, with its seed, into this frame and
-/// merges it into the visibility buffer. Schied et al. 2018, section 4.1.
-/// See shaders/denoise/forward_claim.comp and forward_merge.comp. Reads the frame block.
+/// merges it into the visibility buffer, or sets it beside the picture, one texel a stratum. Schied
+/// et al. 2018, section 4.1. See shaders/denoise/forward_claim.comp and forward_merge.comp. Reads
+/// the frame block.
 class ForwardProjectPass {
 public:
     struct Inputs {
         const GpuTexture& previousVisibility;
         const GpuTexture& previousSeeds;
         const GpuTexture& previousRaw;
+        const GpuTexture& visibility; ///< of this frame, before anything is merged into it
     };
     struct Outputs {
-        GpuTexture& visibility; ///< of this frame; patched
-        GpuTexture& seeds;      ///< of this frame; patched
+        GpuTexture& visibility; ///< where the samples go: of this frame, or one texel a stratum
+        GpuTexture& seeds;      ///< likewise
         GpuTexture& owners;     ///< scratch
+        GpuTexture& claims;     ///< scratch
         GpuTexture& samples;
         GpuTexture& counters;
     };
@@ -30,6 +33,7 @@ public:
 private:
     ComputeProgram& claim_;
     ComputeProgram& merge_;
+    ComputeProgram& mergeExtra_;
 };
 
 } // namespace afterglow

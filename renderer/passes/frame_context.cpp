@@ -1,6 +1,22 @@
 #include "renderer/passes/frame_context.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace afterglow {
+
+PassScope::Report::Report(PassListener* to, std::string pass,
+                          std::initializer_list<const GpuTexture*> from)
+    : listener(to), name(std::move(pass)), count(from.size()) {
+    if (count > made.size())
+        throw std::logic_error("pass " + name + " makes more images than a pass may");
+    std::ranges::copy(from, made.begin());
+}
+
+PassScope::Report::~Report() {
+    if (listener)
+        listener->passDone(name, {made.data(), count});
+}
 
 Defines definesOf(Kernel kernel) {
     return {{"KERNEL_RADIUS", kernel == Kernel::B3Spline5x5 ? "2" : "1"}};

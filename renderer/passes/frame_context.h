@@ -2,12 +2,60 @@
 
 #include "renderer/gl/gpu_timer.h"
 #include "renderer/gl/shader_source.h"
+#include "renderer/gl/texture.h"
+
+#include <array>
+#include <initializer_list>
+#include <span>
+#include <string>
 
 namespace afterglow {
+
+/// Hears what each pass of a frame has made, right after the pass and before the next one.
+class PassListener {
+public:
+    virtual ~PassListener() = default;
+    /// `pass` is the name the timer has, too. What was made is changed by later passes.
+    virtual void passDone(std::string_view pass, std::span<const GpuTexture* const> made) = 0;
+};
+
+/// From its beginning to its end: times a pass, names it for debuggers, and tells the listener.
+class PassScope {
+public:
+    PassScope(GpuTimer& timer, PassListener* listener, std::string name,
+              std::initializer_list<const GpuTexture*> made)
+        : report_(listener, std::move(name), made), scope_(timer.scope(report_.name)) {}
+    PassScope(const PassScope&) = delete;
+    PassScope& operator=(const PassScope&) = delete;
+
+private:
+    static constexpr std::size_t kMostMade = 6;
+    struct Report {
+        Report(PassListener* to, std::string pass, std::initializer_list<const GpuTexture*> from);
+        ~Report();
+        Report(const Report&) = delete;
+        Report& operator=(const Report&) = delete;
+
+        PassListener* listener;
+        std::string name;
+        std::array<const GpuTexture*, kMostMade> made{};
+        std::size_t count = 0;
+    };
+
+    Report report_; // after the timer's scope has ended: it is the first member
+    GpuTimer::Scope scope_;
+};
 
 /// What every pass may use.
 struct FrameContext {
     GpuTimer& timer;
+    PassListener* listener = nullptr;
+    std::string prefix{}; ///< of the names of passes, where the same ones run more than once
+
+    [[nodiscard]] PassScope pass(std::string_view name,
+                                 std::initializer_list<const GpuTexture*> made) const {
+        return PassScope(timer, listener, prefix + std::string(name), made);
+    }
 };
 
 /// The taps of an a-trous iteration.

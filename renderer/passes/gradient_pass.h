@@ -15,6 +15,7 @@ public:
         const GpuTexture& samples;
         const GpuTexture& guides;
         const GpuTexture& slope;
+        const GpuTexture* sampleRaw = nullptr; ///< per stratum; empty: the samples are in `raw`
     };
     struct Outputs {
         GpuTexture& gradient;     ///< delta, Delta, mean luminance, variance of luminance
@@ -27,7 +28,8 @@ public:
              const gpu::GradientParams& params);
 
 private:
-    ComputeProgram& program_;
+    ComputeProgram& merged_;
+    ComputeProgram& extra_;
 };
 
 /// One a-trous iteration over delta and Delta on the grid of strata.

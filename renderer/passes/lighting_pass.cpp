@@ -4,7 +4,7 @@ namespace afterglow {
 
 void LightingPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs& in,
                        const Outputs& out, Rays rays) {
-    const auto scope = frame.timer.scope("lighting");
+    const auto scope = frame.pass("lighting", {&out.raw});
     const auto trace = [&](const Defines& defines, std::initializer_list<Binding> reads) {
         shaders_.compute("lighting/lighting.comp", defines)
             .dispatch(out.raw.size(), reads, {{"raw", out.raw}, {"counters", out.counters}});

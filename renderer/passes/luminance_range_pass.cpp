@@ -7,7 +7,7 @@ LuminanceRangePass::LuminanceRangePass(ShaderLibrary& shaders)
 
 void LuminanceRangePass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                              const gpu::PercentileParams& params) {
-    const auto scope = frame.timer.scope("luminance range");
+    const auto scope = frame.pass("luminance range", {&out.luminanceRange});
     program_.dispatch(in.raw.size(), params, {{"raw", in.raw}, {"guides", in.guides}},
                       {{"luminanceRange", out.luminanceRange}});
 }

@@ -7,7 +7,7 @@ ReferencePass::ReferencePass(ShaderLibrary& shaders)
       mean_(shaders.compute("lighting/mean.comp")) {}
 
 void ReferencePass::add(FrameContext& frame, const GpuTexture& raw, const Sums& to) {
-    const auto scope = frame.timer.scope("accumulate");
+    const auto scope = frame.pass("accumulate", {&to.sum});
     accumulate_.dispatch(to.sum.size(), {{"raw", raw}},
                          {{"seeds", to.seeds}, {"sum", to.sum}, {"lost", to.lost}});
 }

@@ -7,7 +7,8 @@ SurfacePass::SurfacePass(ShaderLibrary& shaders)
 
 void SurfacePass::run(FrameContext& frame, const SceneGpu& scene, const Inputs& in,
                       const Outputs& out) {
-    const auto scope = frame.timer.scope("surface");
+    const auto scope = frame.pass("surface", {&out.surface, &out.guides, &out.slope, &out.motion,
+                                              &out.albedo, &out.emission});
     program_.dispatch(out.surface.size(),
                       {{"visibility", in.visibility},
                        {"vertices", scene.vertices},

@@ -7,7 +7,7 @@ TemporalPass::TemporalPass(ShaderLibrary& shaders)
 
 void TemporalPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                        const gpu::TemporalParams& params) {
-    const auto scope = frame.timer.scope("temporal");
+    const auto scope = frame.pass("temporal", {&out.accumulated, &out.moments, &out.control});
     program_.dispatch(
         out.accumulated.size(), params,
         {{"raw", in.raw},

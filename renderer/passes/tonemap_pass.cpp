@@ -6,7 +6,7 @@ TonemapPass::TonemapPass(ShaderLibrary& shaders) : program_(shaders.compute("pos
 
 void TonemapPass::run(FrameContext& frame, const GpuTexture& composed, GpuTexture& display,
                       const gpu::TonemapParams& params) {
-    const auto scope = frame.timer.scope("tone map");
+    const auto scope = frame.pass("tone map", {&display});
     program_.dispatch(display.size(), params, {{"composed", composed}}, {{"display", display}});
 }
 

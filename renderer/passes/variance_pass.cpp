@@ -7,7 +7,7 @@ VariancePass::VariancePass(ShaderLibrary& shaders)
 
 void VariancePass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                        const gpu::VarianceParams& params) {
-    const auto scope = frame.timer.scope("variance");
+    const auto scope = frame.pass("variance", {&out.filtered});
     program_.dispatch(out.filtered.size(), params,
                       {{"accumulated", in.accumulated},
                        {"moments", in.moments},

@@ -16,10 +16,10 @@ VisibilityPass::VisibilityPass(ShaderLibrary& shaders)
 
 void VisibilityPass::run(FrameContext& frame, const SceneGpu& scene, const Outputs& out) {
     {
-        const auto scope = frame.timer.scope("visibility");
+        const auto scope = frame.pass("visibility", {&out.ids});
         rasterize(scene, out.framebuffer);
     }
-    const auto scope = frame.timer.scope("resolve");
+    const auto scope = frame.pass("resolve", {&out.visibility, &out.seeds});
     resolve(scene, out);
 }
 

@@ -40,7 +40,7 @@ bool whereCarried(const DenoisePlan& plan) {
 
 struct Row {
     AovInfo info;
-    AovSource (*source)(const Renderer&);
+    AovSource (*source)(const Renderer&, std::size_t state);
     MadeBy* madeBy;
 };
 
@@ -50,60 +50,64 @@ constexpr bool kPerStratum = true;
 // clang-format off
 const std::array kRows = std::to_array<Row>({
     {{"color", "linear radiance: the filtered signal times albedo, plus emission", "RGB"},
-     [](R r) { return AovSource{r.targets().composed}; }, always},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].composed}; }, always},
     {{"filtered", "the signal after the filter, without albedo, radiance", "RGB"},
-     [](R r) { return AovSource{r.filteredSignal()}; }, always},
+     [](R r, std::size_t i) { return AovSource{r.filteredSignal(i)}; }, always},
     {{"raw", "the signal as traced, one sample a pixel, without albedo, radiance", "RGB"},
-     [](R r) { return AovSource{r.targets().raw.current()}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().raw.current()}; }, always},
     {{"accumulated", "the signal after temporal and before spatial filtering, radiance", "RGB"},
-     [](R r) { return AovSource{r.targets().accumulated}; }, whereBlendIsKept},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].accumulated}; }, whereBlendIsKept},
     {{"history_luminance", "luminance of the history as fetched, 0 without one, radiance", "Y"},
-     [](R r) { return AovSource{r.targets().accumulated, 3}; }, whereBlendIsKept},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].accumulated, 3}; }, whereBlendIsKept},
     {{"variance", "variance of the filtered signal's luminance, as estimated, radiance squared", "Y"},
-     [](R r) { return AovSource{r.filteredSignal(), 3}; }, whereFiltered},
+     [](R r, std::size_t i) { return AovSource{r.filteredSignal(i), 3}; }, whereFiltered},
     {{"albedo", "diffuse reflectance of the surface, [0, 1]", "RGB"},
-     [](R r) { return AovSource{r.targets().albedo}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().albedo}; }, always},
     {{"emission", "what the surface itself emits, radiance", "RGB"},
-     [](R r) { return AovSource{r.targets().emission}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().emission}; }, always},
     {{"normal", "world-space shading normal, unit length", "XYZ"},
-     [](R r) { return AovSource{r.targets().guides.current()}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().guides.current()}; }, always},
     {{"depth", "distance along the view axis, metres; 0 is background", "Y"},
-     [](R r) { return AovSource{r.targets().guides.current(), 3}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().guides.current(), 3}; }, always},
     {{"position", "of the surface in the world, metres", "XYZ"},
-     [](R r) { return AovSource{r.targets().surface, 0, true}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().surface, 0, true}; }, always},
     {{"slope", "change of depth along x and y, metres per pixel", "XY"},
-     [](R r) { return AovSource{r.targets().slope}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().slope}; }, always},
     {{"motion", "from the pixel to where its surface was a frame ago, pixels", "XY"},
-     [](R r) { return AovSource{r.targets().motion}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().motion}; }, always},
     {{"instance", "number of the instance from 1; 0 is background", "Y"},
-     [](R r) { return AovSource{r.targets().visibility.current()}; }, always},
+     [](R r, std::size_t) { return AovSource{r.targets().visibility.current()}; }, always},
     {{"moments", "running means of the raw luminance and of its square", "XY"},
-     [](R r) { return AovSource{r.targets().moments.current()}; }, whereAccumulated},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].moments.current()}; }, whereAccumulated},
     {{"history", "length of the history as the history law counts it, frames", "Y"},
-     [](R r) { return AovSource{r.targets().moments.current(), 2}; }, whereAccumulated},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].moments.current(), 2}; }, whereAccumulated},
     {{"alpha", "weight of the newest frame in the blend, [0, 1]", "Y"},
-     [](R r) { return AovSource{r.targets().control, 1}; }, whereAccumulated},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].control, 1}; }, whereAccumulated},
     {{"reason", "why there is no history: 0 there is, 1 first frame, 2 off screen, 3 another "
       "instance, 4 depth, 5 normal", "Y"},
-     [](R r) { return AovSource{r.targets().control, 3}; }, whereAccumulated},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].control, 3}; }, whereAccumulated},
     {{"lambda", "relative temporal change as fetched at the pixel, [0, 1]", "Y"},
-     [](R r) { return AovSource{r.targets().control}; }, whereLambda},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].control}; }, whereLambda},
     {{"lambda_strata", "relative temporal change per stratum of 3x3 pixels, [0, 1]", "Y", kPerStratum},
-     [](R r) { return AovSource{r.targets().lambda}; }, whereAdaptive},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].lambda}; }, whereAdaptive},
     {{"gradient", "reconstructed change of luminance (delta), or its size, per stratum, radiance", "Y", kPerStratum},
-     [](R r) { return AovSource{r.targets().gradient[0]}; }, whereReconstructed},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].gradient[0]}; }, whereReconstructed},
     {{"gradient_max", "reconstructed larger luminance of the two frames (Delta) per stratum, radiance",
       "Y", kPerStratum},
-     [](R r) { return AovSource{r.targets().gradient[0], 1}; }, whereReconstructed},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].gradient[0], 1}; }, whereReconstructed},
     {{"gradient_sample", "change of luminance at each stratum's sample, or its size, as measured, radiance", "Y",
       kPerStratum},
-     [](R r) { return AovSource{r.targets().gradientSamples}; }, whereAdaptive},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].gradientSamples}; }, whereAdaptive},
     {{"gradient_sample_max", "larger luminance of the two frames at each stratum's sample, radiance",
       "Y", kPerStratum},
-     [](R r) { return AovSource{r.targets().gradientSamples, 1}; }, whereAdaptive},
+     [](R r, std::size_t i) { return AovSource{r.targets().filters[i].gradientSamples, 1}; }, whereAdaptive},
     {{"samples", "where in the stratum its gradient sample landed, 1 + x + 3y; 0 is none", "Y",
       kPerStratum},
-     [](R r) { return AovSource{r.targets().samples, 1}; }, whereCarried},
+     [](R r, std::size_t) { return AovSource{r.targets().samples, 1}; }, whereCarried},
+    {{"fate", "what became of the sample that each stratum of the frame before offered: 1 carried, 2 "
+      "background, 3 a gradient sample itself, 4 off screen, 5 another instance, 6 depth, 7 lost the "
+      "race", "Y", kPerStratum},
+     [](R r, std::size_t) { return AovSource{r.targets().samples, 3}; }, whereCarried},
 });
 // clang-format on
 
@@ -160,12 +164,12 @@ bool isMadeBy(const AovInfo& aov, Filter filter, const DenoiserSettings& setting
     return rowOf(aov).madeBy(makePlan(filter, settings));
 }
 
-AovSource sourceOf(const Renderer& renderer, const AovInfo& aov) {
-    return rowOf(aov).source(renderer);
+AovSource sourceOf(const Renderer& renderer, const AovInfo& aov, std::size_t state) {
+    return rowOf(aov).source(renderer, state);
 }
 
-Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov) {
-    const AovSource source = sourceOf(renderer, aov);
+Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov, std::size_t state) {
+    const AovSource source = sourceOf(renderer, aov, state);
     const int count = int(aov.channels.size());
     switch (source.texture.format()) {
     case PixelFormat::RGBA32F: return channelsOf<glm::vec4>(source, count);

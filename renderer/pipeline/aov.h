@@ -29,10 +29,10 @@ struct AovSource {
     int channel = 0;
     bool isFloatBits = false; ///< integers that hold the bits of floats
 };
-/// In the last frame that was rendered.
-AovSource sourceOf(const Renderer& renderer, const AovInfo& aov);
+/// In the last frame that was rendered, of the filter with this state.
+AovSource sourceOf(const Renderer& renderer, const AovInfo& aov, std::size_t state = 0);
 
 /// Reads it back from the last frame; unused channels are 0.
-Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov);
+Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov, std::size_t state = 0);
 
 } // namespace afterglow

@@ -17,21 +17,28 @@ class Denoiser {
 public:
     explicit Denoiser(ShaderLibrary& shaders);
 
-    /// Merges last frame's samples into the visibility buffer and the seeds, before anything is
-    /// shaded.
-    void carrySamples(FrameContext& frame, const SceneGpu& scene, RenderTargets& targets);
+    /// Carries last frame's samples into this one, before anything is shaded: into the visibility
+    /// buffer and the seeds, or to RenderTargets::extra, which must not be empty then.
+    void carrySamples(FrameContext& frame, const SceneGpu& scene, RenderTargets& targets,
+                      SamplePlacement placement);
 
-    /// From the raw signal to the filtered one; returns the texture that holds it.
-    const GpuTexture& run(FrameContext& frame, const DenoisePlan& plan, RenderTargets& targets,
-                          const DenoiserSettings& settings);
+    /// From the raw signal to the filtered one, with the histories of `filter`, which is one of
+    /// those of `targets`; returns the texture that holds it.
+    const GpuTexture& run(FrameContext& frame, const DenoisePlan& plan,
+                          const RenderTargets& targets, FilterTargets& filter,
+                          const DenoiserSettings& settings, SamplePlacement placement);
 
 private:
-    void reconstructGradient(FrameContext& frame, const DenoisePlan& plan, RenderTargets& targets,
-                             const DenoiserSettings& settings);
-    void accumulate(FrameContext& frame, const DenoisePlan& plan, RenderTargets& targets,
-                    const DenoiserSettings& settings);
-    const GpuTexture& filter(FrameContext& frame, const DenoisePlan& plan, RenderTargets& targets,
-                             const DenoiserSettings& settings);
+    struct Run {
+        FrameContext& frame;
+        const DenoisePlan& plan;
+        const RenderTargets& shared;
+        FilterTargets& own;
+        const DenoiserSettings& settings;
+    };
+    void reconstructGradient(const Run& run, SamplePlacement placement);
+    void accumulate(const Run& run);
+    const GpuTexture& filter(const Run& run);
 
     ForwardProjectPass forwardProject_;
     GradientPass gradient_;

@@ -1,4 +1,4 @@
-#include "renderer/pipeline/renderer.h"
+#include "renderer/pipeline/renderer_impl.h"
 
 #include "shared/counters.h"
 
@@ -7,64 +7,6 @@
 #include <stdexcept>
 
 namespace afterglow {
-
-struct Renderer::Impl {
-    Impl(ShaderLibrary& shaders, const GlInfo& gl)
-        : timer(gl.softwareRasterizer), visibility(shaders), surface(shaders), lighting(shaders),
-          denoiser(shaders), composite(shaders), tonemap(shaders), reference(shaders) {}
-
-    void requireScene() const {
-        if (!sceneGpu || targets.size.x == 0)
-            throw std::logic_error("Renderer: setScene() and resize() come before a frame");
-    }
-    void begin(const FrameInput& input, const Settings& settings);
-    void setLights(const FrameInput& input);
-    void findSurfaces(FrameContext& context);
-    void placeSurfaces(FrameContext& context, double seconds);
-    void trace(const Settings& settings, const GpuTexture& tracedSurface,
-               const GpuTexture& tracedGuides);
-    const GpuTexture& present(FrameContext& context, const GpuTexture& signal,
-                              const Settings& settings);
-
-    GpuTimer timer;
-    VisibilityPass visibility;
-    SurfacePass surface;
-    LightingPass lighting;
-    Denoiser denoiser;
-    CompositePass composite;
-    TonemapPass tonemap;
-    ReferencePass reference;
-
-    Scene scene;
-    SceneStats sceneStats;
-    std::unique_ptr<SceneGpu> sceneGpu;
-    std::optional<Pose> previousPose;
-    FrameData frame;
-    RenderTargets targets;
-    const GpuTexture* signal = nullptr; ///< of the last frame
-
-    /// Surfaces somewhere else than where they are seen.
-    struct PlacedSurfaces {
-        explicit PlacedSurfaces(glm::ivec2 size)
-            : surface("placed surface", PixelFormat::RGBA32UI, size),
-              guides("placed guides", PixelFormat::RGBA32F, size),
-              slope("placed slope", PixelFormat::RG32F, size),
-              motion("placed motion", PixelFormat::RGBA32F, size),
-              albedo("placed albedo", PixelFormat::RGBA32F, size),
-              emission("placed emission", PixelFormat::RGBA32F, size) {}
-        GpuTexture surface, guides, slope, motion, albedo, emission;
-    };
-    std::optional<PlacedSurfaces> placed; ///< kept from one reference to the next
-    GpuTexture lost;                      ///< what rounding took from targets.sum
-
-    struct Reference {
-        Settings settings;
-        const GpuTexture* surface = nullptr; ///< the surfaces that are lit
-        const GpuTexture* guides = nullptr;
-        int samples = 0;
-    };
-    std::optional<Reference> converging;
-};
 
 Renderer::Renderer(ShaderLibrary& shaders, const GlInfo& gl)
     : impl_(std::make_unique<Impl>(shaders, gl)) {}
@@ -98,7 +40,7 @@ void Renderer::resize(glm::ivec2 size) {
     if (size == impl_->targets.size)
         return;
     impl_->targets = RenderTargets(size);
-    impl_->signal = nullptr;
+    impl_->signals = {};
     impl_->converging.reset();
     impl_->placed.reset();
     impl_->lost = {};
@@ -143,150 +85,180 @@ void Renderer::Impl::setLights(const FrameInput& input) {
     sceneGpu->setLightScales(scales);
 }
 
-// The visibility samples of the pixels' centers, for a reference, and their surfaces.
-void Renderer::Impl::findSurfaces(FrameContext& context) {
-    RenderTargets& t = targets;
-    visibility.run(context, *sceneGpu,
-                   {t.framebuffer, t.ids, t.visibility.current(), t.seeds.current()});
-    surface.run(context, *sceneGpu, {t.visibility.current()},
-                {t.surface, t.guides.current(), t.slope, t.motion, t.albedo, t.emission});
-}
-
-// Moves the scene to another time, and the visibility samples with it.
-void Renderer::Impl::placeSurfaces(FrameContext& context, double seconds) {
-    const Pose pose = poseAt(scene, seconds);
-    sceneGpu->update(scene, pose, pose);
-    frame.uniforms.bvh = sceneGpu->bvh().params();
-    frame.upload();
-    if (!placed)
-        placed.emplace(targets.size);
-    surface.run(context, *sceneGpu, {targets.visibility.current()},
-                {placed->surface, placed->guides, placed->slope, placed->motion, placed->albedo,
-                 placed->emission});
-}
-
-// One sample of the signal on these surfaces, from what the visibility buffer and the seeds hold.
-void Renderer::Impl::trace(const Settings& settings, const GpuTexture& tracedSurface,
-                           const GpuTexture& tracedGuides) {
-    FrameContext context{timer};
-    RenderTargets& t = targets;
+// One sample of the signal on these surfaces.
+void Renderer::Impl::trace(const FrameContext& outer, const Settings& settings,
+                           const Traced& traced, GpuTexture& raw) {
+    FrameContext context = outer;
     const auto signalKind = Signal(settings.lighting.signal);
     lighting.run(context, *sceneGpu,
-                 {t.visibility.current(), tracedSurface, tracedGuides, t.seeds.current()},
-                 {t.raw.current(), t.counters},
+                 {traced.visibility, traced.surface, traced.guides, traced.seeds},
+                 {raw, targets.counters},
                  {.shadows = signalKind != Signal::AmbientOcclusion,
                   .ambientOcclusion = signalKind != Signal::Shadows});
 }
 
-const GpuTexture& Renderer::Impl::present(FrameContext& context, const GpuTexture& newest,
-                                          const Settings& settings) {
+// What forward projection set beside the picture, shaded.
+void Renderer::Impl::traceExtraSamples(FrameContext& outer, const Settings& settings) {
+    FrameContext context{outer.timer, outer.listener, "extra "};
+    ExtraSamples& x = targets.extra;
+    surface.run(context, *sceneGpu, {x.visibility},
+                {x.surface, x.guides, x.slope, x.motion, x.albedo, x.emission});
+    trace(context, settings, {x.visibility, x.surface, x.guides, x.seeds}, x.raw);
+}
+
+// Filters that did not run in the last frame go on where the first one that did has come to.
+void Renderer::Impl::startStates(std::span<const FilterRun> runs) {
+    const auto ran = [&](std::size_t state) { return signals[state] != nullptr; };
+    std::size_t donor = 0;
+    while (donor < kFilterStates && !ran(donor))
+        ++donor;
+    std::array<bool, kFilterStates> taken{};
+    for (const FilterRun& run : runs) {
+        if (run.state >= kFilterStates || std::exchange(taken[run.state], true))
+            throw std::logic_error("Renderer: each filter needs a state of its own");
+        FilterTargets& own = targets.filters[run.state];
+        if (own.empty())
+            own = FilterTargets(targets.size);
+        if (donor < kFilterStates && !ran(run.state)) {
+            own.color.current().copyFrom(targets.filters[donor].color.current());
+            own.moments.current().copyFrom(targets.filters[donor].moments.current());
+        }
+    }
+}
+
+const GpuTexture& Renderer::Impl::present(FrameContext& context, FilterTargets& filter,
+                                          const GpuTexture& newest, const Settings& settings) {
     RenderTargets& t = targets;
-    signal = &newest;
-    composite.run(context, {newest, t.albedo, t.emission, t.guides.current()}, {t.composed});
-    tonemap.run(context, t.composed, t.display,
+    signals[std::size_t(&filter - t.filters.data())] = &newest;
+    composite.run(context, {newest, t.albedo, t.emission, t.guides.current()}, {filter.composed});
+    tonemap.run(context, filter.composed, filter.display,
                 {std::exp2(settings.display.exposure), 0.0f, 0.0f, 0.0f});
-    return t.display;
+    return filter.display;
+}
+
+const GpuTexture& Renderer::render(const FrameInput& input, const Settings& settings) {
+    const FilterRun run{0, settings};
+    render(input, {&run, 1});
+    return impl_->targets.filters[0].display;
 }
 
 // The order of a frame.
-const GpuTexture& Renderer::render(const FrameInput& input, const Settings& settings) {
+void Renderer::render(const FrameInput& input, std::span<const FilterRun> runs) {
     impl_->requireScene();
+    if (runs.empty())
+        throw std::logic_error("Renderer: a frame needs a filter");
     Impl& self = *impl_;
     RenderTargets& t = self.targets;
     self.converging.reset();
+    self.startStates(runs);
     // The frame before becomes the history. At the start and not at the end of a frame, so that
     // what was just rendered can be looked at as "current".
     t.swapHistories();
     self.timer.beginFrame();
+    const Settings& settings = runs.front().settings;
     self.begin(input, settings);
 
-    FrameContext context{self.timer};
-    const DenoisePlan plan = makePlan(settings.filter, settings.denoiser);
+    FrameContext context{self.timer, self.listener};
+    const auto placement = SamplePlacement(settings.lighting.gradientSamples);
+    const bool extra = placement == SamplePlacement::Extra;
+    bool carries = false, usesLambda = false;
+    std::vector<DenoisePlan> plans;
+    for (const FilterRun& run : runs) {
+        plans.push_back(makePlan(run.settings.filter, run.settings.denoiser));
+        carries = carries || plans.back().carrySamples;
+        usesLambda = usesLambda || plans.back().useLambda;
+    }
+
     self.visibility.run(context, *self.sceneGpu,
                         {t.framebuffer, t.ids, t.visibility.current(), t.seeds.current()});
-    if (plan.carrySamples)
-        self.denoiser.carrySamples(context, *self.sceneGpu, t);
+    if (carries) {
+        if (extra && t.extra.empty())
+            t.extra = ExtraSamples(t.strata);
+        self.denoiser.carrySamples(context, *self.sceneGpu, t, placement);
+    }
     self.surface.run(context, *self.sceneGpu, {t.visibility.current()},
                      {t.surface, t.guides.current(), t.slope, t.motion, t.albedo, t.emission});
-    self.trace(settings, t.surface, t.guides.current());
-    const GpuTexture& clean = self.denoiser.run(context, plan, t, settings.denoiser);
-    const GpuTexture& display = self.present(context, clean, settings);
+    self.trace(context, settings,
+               {t.visibility.current(), t.surface, t.guides.current(), t.seeds.current()},
+               t.raw.current());
+    if (extra && usesLambda)
+        self.traceExtraSamples(context, settings);
+
+    self.signals = {};
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        FilterTargets& own = t.filters[runs[i].state];
+        if (runs.size() > 1)
+            context.prefix = std::string(1, char('A' + runs[i].state)) + " ";
+        const GpuTexture& clean =
+            self.denoiser.run(context, plans[i], t, own, runs[i].settings.denoiser, placement);
+        self.present(context, own, clean, settings);
+    }
 
     self.frame.end();
     self.timer.endFrame();
-    return display;
-}
-
-void Renderer::beginReference(const FrameInput& input, const Settings& settings) {
-    beginReference(input, input, settings);
-}
-
-void Renderer::beginReference(const FrameInput& seen, const FrameInput& world,
-                              const Settings& settings) {
-    impl_->requireScene();
-    Impl& self = *impl_;
-    RenderTargets& t = self.targets;
-    FrameInput first = seen;
-    first.frame = 0; // the number of a reference's first sample takes the place of the frame's
-    self.begin(first, settings);
-    self.frame.forget();
-    self.previousPose.reset();
-    FrameContext context{self.timer};
-    self.findSurfaces(context);
-    self.setLights(world);
-    self.converging = Impl::Reference{settings, &t.surface, &t.guides.current()};
-    if (world.seconds != seen.seconds) {
-        self.placeSurfaces(context, world.seconds);
-        self.converging->surface = &self.placed->surface;
-        self.converging->guides = &self.placed->guides;
-    }
-    if (self.lost.size() != t.size)
-        self.lost = GpuTexture("sum, lost", PixelFormat::RGBA32F, t.size);
-    self.lost.clear();
-    t.sum.clear();
-}
-
-void Renderer::addReferenceSamples(int count) {
-    Impl& self = *impl_;
-    if (!self.converging)
-        throw std::logic_error("Renderer: beginReference() comes before its samples");
-    RenderTargets& t = self.targets;
-    FrameContext context{self.timer};
-    Impl::Reference& reference = *self.converging;
-    for (int i = 0; i < count; ++i) {
-        self.trace(reference.settings, *reference.surface, *reference.guides);
-        self.reference.add(context, t.raw.current(), {t.seeds.current(), t.sum, self.lost});
-        ++reference.samples;
-    }
-}
-
-const GpuTexture& Renderer::finishReference() {
-    Impl& self = *impl_;
-    if (!self.converging || self.converging->samples == 0)
-        throw std::logic_error("Renderer: a reference needs samples");
-    FrameContext context{self.timer};
-    self.reference.mean(context, self.targets.sum, self.converging->samples,
-                        self.targets.filtered[0]);
-    return self.present(context, self.targets.filtered[0], self.converging->settings);
-}
-
-const GpuTexture& Renderer::showReference(const Image<glm::vec4>& converged,
-                                          const Settings& settings) {
-    impl_->requireScene();
-    Impl& self = *impl_;
-    FrameContext context{self.timer};
-    self.targets.filtered[0].write(converged);
-    return self.present(context, self.targets.filtered[0], settings);
 }
 
 const RenderTargets& Renderer::targets() const {
     return impl_->targets;
 }
 
-const GpuTexture& Renderer::filteredSignal() const {
-    if (!impl_->signal)
+const GpuTexture& Renderer::filteredSignal(std::size_t state) const {
+    const GpuTexture* const signal = impl_->signals.at(state);
+    if (!signal)
         throw std::logic_error("Renderer: no frame has been rendered");
-    return *impl_->signal;
+    return *signal;
+}
+
+std::size_t HistoryCheckpoint::bytes() const {
+    std::size_t sum = visibility.bytes() + seeds.bytes() + guides.bytes() + raw.bytes();
+    for (const auto& filter : filters)
+        if (filter)
+            sum += filter->color.bytes() + filter->moments.bytes();
+    return sum;
+}
+
+HistoryCheckpoint Renderer::checkpoint() const {
+    impl_->requireScene();
+    const RenderTargets& t = impl_->targets;
+    HistoryCheckpoint kept{.visibility = t.visibility.current().copy(),
+                           .seeds = t.seeds.current().copy(),
+                           .guides = t.guides.current().copy(),
+                           .raw = t.raw.current().copy(),
+                           .filters = {},
+                           .matrices = impl_->frame.previous(),
+                           .pose = impl_->previousPose};
+    for (std::size_t i = 0; i < kFilterStates; ++i)
+        if (impl_->signals[i])
+            kept.filters[i] = {t.filters[i].color.current().copy(),
+                               t.filters[i].moments.current().copy()};
+    return kept;
+}
+
+void Renderer::restore(const HistoryCheckpoint& kept) {
+    impl_->requireScene();
+    RenderTargets& t = impl_->targets;
+    impl_->converging.reset();
+    t.visibility.current().copyFrom(kept.visibility);
+    t.seeds.current().copyFrom(kept.seeds);
+    t.guides.current().copyFrom(kept.guides);
+    t.raw.current().copyFrom(kept.raw);
+    impl_->signals = {};
+    for (std::size_t i = 0; i < kFilterStates; ++i) {
+        if (!kept.filters[i])
+            continue;
+        FilterTargets& own = t.filters[i];
+        if (own.empty())
+            own = FilterTargets(t.size);
+        own.color.current().copyFrom(kept.filters[i]->color);
+        own.moments.current().copyFrom(kept.filters[i]->moments);
+        impl_->signals[i] = &own.color.current(); // until the next frame has filtered
+    }
+    impl_->frame.setPrevious(kept.matrices);
+    impl_->previousPose = kept.pose;
+}
+
+void Renderer::setListener(PassListener* listener) {
+    impl_->listener = listener;
 }
 
 FrameStats Renderer::readStats() const {

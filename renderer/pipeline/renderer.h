@@ -37,6 +37,25 @@ struct SceneStats {
     double bvhBuildMilliseconds = 0.0;
 };
 
+/// One of the filters that run on the raw signal of a frame.
+struct FilterRun {
+    std::size_t state = 0; ///< whose histories it has: one of kFilterStates
+    Settings settings;
+};
+
+/// What a frame leaves for the next one: all histories, as textures of its own.
+struct HistoryCheckpoint {
+    struct FilterHistory {
+        GpuTexture color, moments;
+    };
+    GpuTexture visibility, seeds, guides, raw;
+    std::array<std::optional<FilterHistory>, kFilterStates> filters; ///< of those that ran
+    std::optional<FrameData::Matrices> matrices;
+    std::optional<Pose> pose;
+
+    std::size_t bytes() const; ///< on the device
+};
+
 /// Owns the order of a frame. Needs a current OpenGL 4.5 context for all of its life.
 /// The renderer ends at a texture and never touches the default framebuffer.
 class Renderer {
@@ -55,8 +74,23 @@ public:
     glm::ivec2 size() const;
     void resetHistory();
 
-    /// Renders one frame; returns the display image (RGBA8, sRGB-encoded, row 0 on top).
+    /// Renders one frame; returns the display image (RGBA8, sRGB-encoded, row 0 on top). The
+    /// histories are those of state 0.
     const GpuTexture& render(const FrameInput& input, const Settings& settings);
+    /// Renders one frame whose raw signal several filters see, the same bits each; their states are
+    /// different ones. Lighting and exposure are those of the first run. A state that did not run
+    /// in the frame before starts with a copy of the histories of the lowest one that did. If
+    /// gradient samples are merged and one of the filters wants them, all see them.
+    void render(const FrameInput& input, std::span<const FilterRun> runs);
+
+    /// What the last frame leaves for the next one. The same frames rendered again from it have the
+    /// same bits.
+    HistoryCheckpoint checkpoint() const;
+    /// The next frame sees these histories. A checkpoint of another size is std::logic_error.
+    void restore(const HistoryCheckpoint& checkpoint);
+
+    /// Hears what each pass makes, from the next frame on; empty: nobody. Must outlive its use.
+    void setListener(PassListener* listener);
 
     /// A reference: the converged signal of one moment, from the same pixel-centre surface samples
     /// that a frame has and many samples of the signal a pixel, summed in compensated 32-bit float.
@@ -79,8 +113,9 @@ public:
     const GpuTexture& showReference(const Image<glm::vec4>& signal, const Settings& settings);
 
     const RenderTargets& targets() const;
-    /// The denoised (or raw, or converged) demodulated signal of the last frame.
-    const GpuTexture& filteredSignal() const;
+    /// The denoised (or raw, or converged) demodulated signal of the last frame. A state that has
+    /// not run is std::logic_error.
+    const GpuTexture& filteredSignal(std::size_t state = 0) const;
     FrameStats readStats() const; ///< waits for the GPU
     GpuTimer& timer();
 

@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 3> kHistoryLawNames{"effective", "frames"
 constexpr std::array<std::string_view, 2> kLambdaUseNames{"blend", "confidence"};
 constexpr std::array<std::string_view, 2> kMagnitudeNames{"signed", "absolute"};
 constexpr std::array<std::string_view, 2> kStrideNames{"doubling", "linear"};
+constexpr std::array<std::string_view, 2> kPlacementNames{"merged", "extra"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 
 constexpr std::string_view kSvgf = "Schied et al. 2017";
@@ -161,6 +162,10 @@ const std::array kFields = std::to_array<Field>({
     {"lighting", "signalClamp", "Signal clamp",
      "Upper bound of each channel of the raw signal; gradient and filter see the same bound.",
      "radiance", "own choice", 1.0, 10000.0, true, {}, AFTERGLOW_FIELD(lighting.signalClamp)},
+    {"lighting", "gradientSamples", "Gradient samples",
+     "Merged into the raw signal, in place of a ninth of its new samples, or traced beside it by "
+     "a ninth more rays, so that the raw signal is the same whatever the filter.",
+     "", kAsvgf, 0.0, 1.0, false, kPlacementNames, AFTERGLOW_FIELD(lighting.gradientSamples)},
 
     {"display", "exposure", "Exposure",
      "Of the display image only; nothing is measured after it.",

@@ -14,6 +14,9 @@ namespace afterglow {
 
 enum class Filter { None, Fixed, Svgf, Asvgf, Clamp, Percentile, Confidence };
 enum class Signal { Shadows, AmbientOcclusion, Both };
+/// Where gradient samples are shaded: in the picture, in place of new samples of the pixels that
+/// they land on, or beside it, by rays of their own.
+enum class SamplePlacement { Merged, Extra };
 
 /// The names on the command line and in files: none, fixed, svgf, asvgf, clamp, percentile,
 /// confidence; shadows, ao, both.
@@ -63,6 +66,7 @@ struct LightingSettings {
     int signal = int(Signal::Both);
     float aoRadius = 0.04f;     ///< in extents of the scene
     float signalClamp = 100.0f; ///< radiance
+    int gradientSamples = int(SamplePlacement::Merged);
 };
 
 struct DisplaySettings {

@@ -27,10 +27,14 @@ public:
     /// The next frame has no history.
     void forget() { previous_.reset(); }
 
-private:
+    /// What a frame leaves for the next one; empty: nothing.
     struct Matrices {
         glm::mat4 clipFromWorld, viewFromWorld;
     };
+    const std::optional<Matrices>& previous() const { return previous_; }
+    void setPrevious(const std::optional<Matrices>& previous) { previous_ = previous; }
+
+private:
     GpuBuffer buffer_;
     std::optional<Matrices> previous_;
 };

@@ -3,6 +3,7 @@
 // The temporal gradient at the sample of each stratum: the same surface point, shaded with the same
 // random numbers, now and one frame ago. Schied et al. 2018, section 4.2.
 // A stratum without a sample holds (0, 0): it adds nothing to numerator and denominator alike.
+// With EXTRA_SAMPLES the sample was not shaded in the picture, but beside it.
 
 #include "lib/fetch.glsl"
 #include "shared/bindings.h"
@@ -17,6 +18,9 @@ Float4Texture(raw);    // a: luminance
 Uint4Texture(samples); // previous luminance, place in the stratum + 1
 Float4Texture(guides);
 Float2Texture(slope);
+#ifdef EXTRA_SAMPLES
+Float4Texture(sampleRaw); // per stratum; a: luminance
+#endif
 
 writeonly uniform image2D gradient; // delta, Delta, mean luminance, variance of luminance
 writeonly uniform image2D strataGuides;
@@ -32,8 +36,12 @@ void main() {
     vec2 change = vec2(0.0);
     uvec4 carried = fetch(samples, s);
     if (carried.y != 0u) {
+#ifdef EXTRA_SAMPLES
+        float now = fetch(sampleRaw, s).a;
+#else
         uint place = carried.y - 1u;
         float now = fetch(raw, first + ivec2(place % kStratumSize, place / kStratumSize)).a;
+#endif
         float before = uintBitsToFloat(carried.x);
         float difference = now - before;
         change = vec2(params.magnitude == kGradientAbsolute ? abs(difference) : difference,

@@ -130,7 +130,7 @@ void main() {
 
     ivec2 p = tilePixel();
     uint rays = 0u;
-    if (all(lessThan(p, frame.size)))
+    if (all(lessThan(p, sizeOf(seeds))))
         shade(p, rays);
     atomicAdd(raysOfGroup, rays);
 

@@ -29,7 +29,7 @@ vec2 depthSlope(vec3 viewPosition, vec3 viewNormal) {
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, frame.size)))
+    if (any(greaterThanEqual(p, sizeOf(visibility))))
         return;
     uvec4 sampled = fetch(visibility, p);
     if (sampled.x == 0u) {

@@ -83,4 +83,16 @@ const int kHistoryInstance = 3;  // another instance was seen there
 const int kHistoryDepth = 4;
 const int kHistoryNormal = 5;
 
+// What became of the surface sample that a stratum of the frame before offered as a gradient
+// sample.
+const uint kFateNone = 0u;       // there was no frame before, or no samples are carried
+const uint kFateCarried = 1u;    // it is the sample of the stratum where it landed
+const uint kFateBackground = 2u; // there was no surface
+const uint kFateWasSample = 3u;  // it was a gradient sample itself
+const uint kFateOffScreen = 4u;
+const uint kFateInstance = 5u; // another instance is seen where it landed
+const uint kFateDepth = 6u;    // the same instance is seen there, at another depth
+const uint kFateLostRace = 7u; // another sample has that stratum
+const uint kFateCount = 8u;
+
 SHARED_END

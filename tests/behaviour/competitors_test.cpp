@@ -34,10 +34,10 @@ Settings onMergedFrames(Filter filter, Signal signal = Signal::Both) {
 void checkEqualOutputs(const Sequence& a, const Sequence& b) {
     CHECK(differingPixels(a.targets().raw.current().read<glm::vec4>(),
                           b.targets().raw.current().read<glm::vec4>()) == 0);
-    CHECK(differingPixels(a.targets().moments.current().read<glm::vec4>(),
-                          b.targets().moments.current().read<glm::vec4>()) == 0);
-    CHECK(differingPixels(a.targets().color.current().read<glm::vec4>(),
-                          b.targets().color.current().read<glm::vec4>()) == 0);
+    CHECK(differingPixels(a.targets().filters[0].moments.current().read<glm::vec4>(),
+                          b.targets().filters[0].moments.current().read<glm::vec4>()) == 0);
+    CHECK(differingPixels(a.targets().filters[0].color.current().read<glm::vec4>(),
+                          b.targets().filters[0].color.current().read<glm::vec4>()) == 0);
     CHECK(differingPixels(a.signal(), b.signal()) == 0);
 }
 

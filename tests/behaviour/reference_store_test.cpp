@@ -66,7 +66,7 @@ TEST_CASE("a reference from memory or from a folder is, bit for bit, the one tha
     const FrameInput now = studio.at(1.1), then = studio.at(1.0);
     int told = 0;
     const auto tell = [&](int samples) { told += samples; };
-    const auto display = [&] { return studio.targets().display.read<glm::u8vec4>(); };
+    const auto display = [&] { return studio.targets().filters[0].display.read<glm::u8vec4>(); };
 
     ReferenceStore fresh(thisMaker(), ReferenceCache(folder.path()));
     const Reference made = fresh.get(studio.renderer, now, then, studio.settings, 40, tell);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "shared/denoise_params.h"
 #include "tests/reference/random.h"
 #include "tests/reference/surface.h"
 
@@ -31,6 +32,20 @@ enum class Fate {
 };
 constexpr int kFates = 7;
 
+/// As the program calls it, before the race is decided.
+inline std::uint32_t codeOf(Fate fate) {
+    switch (fate) {
+    case Fate::Background: return gpu::kFateBackground;
+    case Fate::WasGradient: return gpu::kFateWasSample;
+    case Fate::OffScreen: return gpu::kFateOffScreen;
+    case Fate::NoInstance:
+    case Fate::OtherInstance: return gpu::kFateInstance;
+    case Fate::OtherDepth: return gpu::kFateDepth;
+    case Fate::Landed: return gpu::kFateCarried;
+    }
+    return gpu::kFateNone;
+}
+
 /// What becomes of the candidate of one stratum.
 struct Candidate {
     glm::ivec2 source{0};
@@ -44,7 +59,8 @@ struct Candidate {
 struct ForwardResult {
     Image<glm::uvec4> samples, visibility;
     Image<std::uint32_t> seeds;
-    Image<std::uint8_t> doubtful; ///< strata in which a doubtful candidate landed, or may have
+    Image<std::uint8_t> doubtful;     ///< strata in which a doubtful candidate landed, or may have
+    Image<std::uint8_t> doubtfulFate; ///< strata whose own candidate may have had another fate
     int fates[kFates] = {};
     int contested = 0; ///< strata in which more than one candidate landed
     int doubts = 0;    ///< doubtful candidates
@@ -117,12 +133,13 @@ inline Candidate follow(const ForwardInputs& in, glm::ivec2 stratum) {
 inline ForwardResult forwardProject(const ForwardInputs& in) {
     const glm::ivec2 size = in.visibility.size(), strata = (size + 2) / 3;
     ForwardResult out{Image<glm::uvec4>(strata, glm::uvec4(0u)), in.visibility, in.seeds,
-                      Image<std::uint8_t>(strata, 0)};
+                      Image<std::uint8_t>(strata, 0), Image<std::uint8_t>(strata, 0)};
+    Image<Candidate> offered(strata);
     Image<std::uint32_t> best(strata, 0u);
     Image<Candidate> winner(strata);
     for (int y = 0; y < strata.y; ++y)
         for (int x = 0; x < strata.x; ++x) {
-            const Candidate candidate = follow(in, {x, y});
+            const Candidate candidate = offered({x, y}) = follow(in, {x, y});
             ++out.fates[int(candidate.fate)];
             if (candidate.doubtful) {
                 ++out.doubts;
@@ -144,6 +161,11 @@ inline ForwardResult forwardProject(const ForwardInputs& in) {
     for (int y = 0; y < strata.y; ++y)
         for (int x = 0; x < strata.x; ++x) {
             const glm::ivec2 s{x, y};
+            const Candidate& own = offered(s);
+            const bool landed = own.fate == Fate::Landed;
+            const bool lost = landed && own.key != best(own.landing / 3);
+            out.samples(s).w = lost ? gpu::kFateLostRace : codeOf(own.fate);
+            out.doubtfulFate(s) = own.doubtful || (landed && out.doubtful(own.landing / 3)) ? 1 : 0;
             if (best(s) == 0)
                 continue;
             const Candidate& from = winner(s);
@@ -153,7 +175,7 @@ inline ForwardResult forwardProject(const ForwardInputs& in) {
             out.samples(s) = {std::bit_cast<std::uint32_t>(in.previousRaw(from.source).a),
                               std::uint32_t(1 + part.x + 3 * part.y),
                               std::uint32_t(from.source.x) | std::uint32_t(from.source.y) << 16,
-                              0u};
+                              out.samples(s).w};
         }
     return out;
 }

@@ -68,6 +68,7 @@ TEST_CASE("the samples of a still picture stay where they are, every one of them
         CHECK(verdict.wrong == 0);
         CHECK(verdict.excused == 0);
         CHECK(verdict.contested == 0);
+        CHECK(verdict.lost == 0);
         CHECK(verdict.filled == verdict.of(reference::Fate::Landed));
         CHECK(verdict.of(reference::Fate::OffScreen) == 0);
         CHECK(verdict.of(reference::Fate::OtherInstance) == 0);
@@ -100,4 +101,5 @@ TEST_CASE("samples land where their surface went, unless it is hidden or gone") 
         CHECK(all.of(fate) > 3);
     }
     CHECK(all.contested > 20);
+    CHECK(all.lost >= all.contested);
 }

@@ -72,9 +72,9 @@ SceneFrame SceneFrames::next() {
     out.raw = t.raw.current().read<glm::vec4>();
     out.previousRaw = t.raw.previous().read<glm::vec4>();
     out.filtered = renderer_.filteredSignal().read<glm::vec4>();
-    out.composed = t.composed.read<glm::vec4>();
+    out.composed = t.filters[0].composed.read<glm::vec4>();
     out.slope = t.slope.read<glm::vec2>();
-    out.display = t.display.read<glm::u8vec4>();
+    out.display = t.filters[0].display.read<glm::u8vec4>();
 
     started_ = true;
     previousSeconds_ = seconds;

@@ -147,6 +147,7 @@ void ForwardVerdict::operator+=(const ForwardVerdict& other) {
     doubts += other.doubts;
     excused += other.excused;
     wrong += other.wrong;
+    lost += other.lost;
 }
 
 ForwardVerdict judgeForward(const SceneFrame& merged, const SceneFrame& plain) {
@@ -158,7 +159,8 @@ ForwardVerdict judgeForward(const SceneFrame& merged, const SceneFrame& plain) {
     verdict.contested = expected.contested;
     verdict.doubts = expected.doubts;
     forEachPixel(expected.samples.size(), [&](glm::ivec2 s) {
-        bool same = merged.samples(s) == expected.samples(s);
+        const glm::uvec4 sample = merged.samples(s), wanted = expected.samples(s);
+        bool same = glm::uvec3(sample) == glm::uvec3(wanted);
         for (int k = 0; k < 9; ++k) {
             const glm::ivec2 p = 3 * s + glm::ivec2(k % 3, k / 3);
             if (merged.visibility.contains(p))
@@ -169,6 +171,9 @@ ForwardVerdict judgeForward(const SceneFrame& merged, const SceneFrame& plain) {
         verdict.filled += merged.samples(s).y != 0;
         if (!same)
             ++(expected.doubtful(s) ? verdict.excused : verdict.wrong);
+        if (sample.w != wanted.w)
+            ++(expected.doubtfulFate(s) ? verdict.excused : verdict.wrong);
+        verdict.lost += sample.w == gpu::kFateLostRace;
     });
     return verdict;
 }

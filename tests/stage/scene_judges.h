@@ -37,6 +37,7 @@ SurfaceVerdict judgeSurface(const SceneFrames& frames, const SceneFrame& frame);
 struct ForwardVerdict {
     int fates[reference::kFates] = {};
     int strata = 0, filled = 0, contested = 0, doubts = 0, excused = 0, wrong = 0;
+    int lost = 0; ///< samples whose stratum another one has
 
     int of(reference::Fate fate) const { return fates[int(fate)]; }
     void operator+=(const ForwardVerdict& other);

@@ -188,6 +188,10 @@ TEST_CASE("errors planted in the forward projection do not pass") {
           "fetch(previousRaw, q).a"},
          {"this frame's seed", merge, "fetch(previousSeeds, source).x",
           "fetch(previousSeeds, q).x"},
+         {"races without losers", merge, "lost ? kFateLostRace : claim.x", "claim.x"},
+         {"fates of another stratum", merge, "uvec4 claim = fetch(claims, s)",
+          "uvec4 claim = fetch(claims, ivec2(0))"},
+         {"hidden and off screen confused", claim, "return kFateOffScreen", "return kFateDepth"},
          {"place without the 1", merge, "1u + uint(inStratum.x)", "uint(inStratum.x)"},
          {"run without a seed", strata, "inFrame, frame.seed)", "inFrame, 0u)"}});
 }
