@@ -1,6 +1,7 @@
 #include "shared/debug_view_params.h"
 #include "shared/denoise_params.h"
 #include "shared/frame.h"
+#include "shared/instrument_params.h"
 #include "shared/post_params.h"
 #include "tests/support/gl_fixture.h"
 
@@ -61,6 +62,9 @@ const std::vector<SharedStruct>& sharedStructs() {
         SHARED_STRUCT(DebugViewParams, "shared/debug_view_params.h", MEMBER(map), MEMBER(channel),
                       MEMBER(pixelsPerTexel), MEMBER(isFloatBits), MEMBER(low), MEMBER(high),
                       MEMBER(unused0), MEMBER(unused1)),
+        SHARED_STRUCT(ProbeParams, "shared/instrument_params.h", MEMBER(first), MEMBER(end)),
+        SHARED_STRUCT(DifferenceParams, "shared/instrument_params.h", MEMBER(isAbsolute),
+                      MEMBER(unused0), MEMBER(unused1), MEMBER(unused2)),
         SHARED_STRUCT(FrameUniforms, "shared/frame.h", MEMBER(clipFromWorld),
                       MEMBER(previousClipFromWorld), MEMBER(viewFromWorld),
                       MEMBER(previousViewFromWorld), MEMBER(cameraPosition), MEMBER(tanHalfFov),
