@@ -11,7 +11,7 @@ packages=(
     fonts-roboto-unhinted
 )
 if [ "${1:-}" = --tests ]; then
-    packages+=(doctest-dev libembree-dev glslang-tools xvfb xauth xdotool
+    packages+=(doctest-dev libembree-dev glslang-tools xvfb xauth xdotool 9wm libxcb1-dev
         python3-skimage python3-numpy ffmpeg chromium)
     command -v node >/dev/null || packages+=(nodejs npm)
 fi

@@ -199,22 +199,31 @@ RenderOptions RenderWords::parse() const {
 
 void ViewWords::addTo(CLI::App& app) {
     addOption(app, "SCENE", scene, "",
-              "A name (afterglow list scenes), or a .gltf or .glb file [hall]");
+              "A scene by its name (afterglow list scenes) or as a .gltf or .glb file, or an "
+              "experiment by its name or as a .json file [the last one, or hall]");
     picture.addFilter(app);
     picture.addSettings(app);
-    addOption(app, "--size", picture.size, "WxH", "Of the window [1600x900]");
+    addOption(app, "--size", picture.size, "WxH", "Of the window [as it was last, or 1600x900]");
     picture.addSeed(app);
     addOption(app, "--camera", picture.camera, "NAME", "One of the scene's cameras [the first]");
     app.add_flag("--still", still, "The scene's animation stands still at first");
     addOption(app, "--frames,-n", picture.frames, "N", "Closes by itself after N frames");
     addOption(app, "--screenshot", screenshot, "FILE",
               "Writes the window as PNG after the last frame");
+    addOption(
+        app, "--shaders", shaders, "DIR",
+        "Takes the shaders from a folder, as shaders/ of the source, and follows its changes");
+    app.add_flag("--reset-settings", resetSettings,
+                 "Forgets window, files and places that are remembered from earlier runs");
+    addOption(app, "--ui-cost", uiCost, "N",
+              "Prints what the interface costs: N frames without and with it, in turns");
     app.add_flag("--debug", debug, "Lets the driver check every call");
     app.footer("F1 in the window shows all keys.\n\n"
                "Examples:\n"
                "  afterglow view\n"
                "  afterglow view cornell --filter svgf\n"
-               "  afterglow view my.glb --size 1280x720\n\n" +
+               "  afterglow view my.glb --size 1280x720\n"
+               "  afterglow view light-off\n\n" +
                kExitCodes);
 }
 
@@ -233,6 +242,10 @@ ViewOptions ViewWords::parse() const {
     if (screenshot && options.frames == 0)
         throw UsageError("--screenshot is written after the last frame; it needs --frames");
     options.screenshot = screenshot;
+    options.resetSettings = resetSettings;
+    options.shaders = shaders;
+    if (uiCost)
+        options.uiCost = int(parseWhole("--ui-cost", *uiCost, 1, 100'000));
     options.debugContext = debug;
     return options;
 }

@@ -56,7 +56,8 @@ struct RenderWords {
 struct ViewWords {
     PictureWords picture;
     Text scene, screenshot;
-    bool still = false, debug = false;
+    bool still = false, debug = false, resetSettings = false;
+    Text uiCost, shaders;
 
     void addTo(CLI::App& app);
     ViewOptions parse() const;

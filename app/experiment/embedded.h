@@ -14,5 +14,6 @@ struct EmbeddedFile {
 // In alphabetical order of their names.
 std::span<const EmbeddedFile> embeddedExperiments(); ///< of assets/experiments
 std::span<const EmbeddedFile> embeddedPresets();     ///< of assets/presets
+std::span<const EmbeddedFile> embeddedTour();        ///< of assets/tour
 
 } // namespace afterglow

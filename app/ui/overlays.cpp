@@ -1,5 +1,6 @@
-// What lies over the picture: a line of facts, the legend of false colors, notices, the keys.
+// What lies over the picture: a line of facts, the legend of false colors, notices.
 
+#include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 #include "app/workbench/color_maps.h"
@@ -14,48 +15,61 @@
 namespace afterglow {
 namespace {
 
-float em() {
-    return ImGui::GetFontSize();
-}
+constexpr float kStatusHeight = 1.9f; // em
 
 constexpr ImGuiWindowFlags kOverlay =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs;
-
-struct UiRect {
-    ImVec2 min, size;
-};
-UiRect inUnits(const PanelContext& panel, const Rect& rect) {
-    return {{float(rect.min.x) * panel.scale, float(rect.min.y) * panel.scale},
-            {float(rect.size.x) * panel.scale, float(rect.size.y) * panel.scale}};
-}
 
 bool hasRoom(const PanelContext& panel) {
     const UiRect view = inUnits(panel, panel.frame.layout.view);
     return view.size.x > 18.0f * em() && view.size.y > 8.0f * em();
 }
 
+// What is out of the ordinary, in the color of attention.
+std::string statusFlag(const ViewState& state) {
+    const Transport& t = state.time;
+    if (t.recording)
+        return "RECORDING";
+    if (state.frozen)
+        return "FROZEN";
+    if (isFinished(t))
+        return "FINISHED";
+    if (t.paused)
+        return "PAUSED";
+    if (t.playing)
+        return t.playing->loops ? "LOOP" : "TAKE";
+    return {};
+}
+
 std::vector<std::string> statusParts(const PanelContext& panel) {
     const ViewState& state = panel.state;
-    const UiFrame& frame = panel.frame;
+    const Pane& active = state.panes.all[state.panes.active];
+    const FrameStats& stats = panel.bench.stats();
+    const glm::ivec2 size = panel.bench.imageSize();
     std::vector<std::string> parts;
     const auto add = [&](const char* format, auto... values) {
         char text[96];
         std::snprintf(text, sizeof text, format, values...);
         parts.emplace_back(text);
     };
-    add("%s", frame.scene.name.c_str());
-    add("%d \xc3\x97 %d", frame.imageSize.x, frame.imageSize.y);
-    add("%s", titleOf(state.settings.filter));
-    if (state.settings.filter != Filter::None)
-        add("\xce\xb1 %.3g", double(state.settings.denoiser.temporal.alpha));
-    add("frame %u", state.frame);
-    add("%.2f s", state.seconds);
-    add("%.1f ms", frame.timings.frame());
-    if (frame.stats.gradientSamples)
-        add("%u gradient samples", frame.stats.gradientSamples);
-    if (frame.stats.invalidValues)
-        add("%u INVALID VALUES", frame.stats.invalidValues);
+    add("%s", panel.bench.scene().name.c_str());
+    add("%d \xc3\x97 %d", size.x, size.y);
+    parts.push_back(titleOf(active));
+    if (active.settings.filter != Filter::None)
+        add("\xce\xb1 %.3g", double(active.settings.denoiser.temporal.alpha));
+    if (state.time.last) {
+        add("frame %u", state.time.past.empty() ? 0u : state.time.past.back().frame);
+        add("%.2f s", state.time.last->seconds);
+    }
+    add("%.1f ms", panel.bench.timings().frame());
+    if (stats.invalidValues)
+        add("%u INVALID VALUES", stats.invalidValues);
+    if (stats.gradientSamples)
+        add("%u gradient samples", stats.gradientSamples);
+    if (state.hovered)
+        add("%c at %d, %d", letterOf(state.hovered->pane), state.hovered->pixel.x,
+            state.hovered->pixel.y);
     return parts;
 }
 
@@ -129,65 +143,60 @@ void overlayStatus(const PanelContext& panel) {
     if (!hasRoom(panel))
         return;
     const UiRect view = inUnits(panel, panel.frame.layout.view);
-    const float height = 1.9f * em();
+    const float height = kStatusHeight * em();
     ImGui::SetNextWindowPos({view.min.x, view.min.y + view.size.y - height});
     ImGui::SetNextWindowSize({view.size.x, height});
     ImGui::SetNextWindowBgAlpha(0.78f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em(), 0.45f * em()});
     ImGui::PushFont(panel.fonts.small);
     ImGui::Begin("status", nullptr, kOverlay);
-    if (panel.state.paused) {
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-        ImGui::TextUnformatted("PAUSED");
+    const char* const hint = "F1 keys";
+    const float room = view.size.x - ImGui::CalcTextSize(hint).x - 2.3f * em();
+    const std::string flag = statusFlag(panel.state);
+    if (!flag.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text,
+                              panel.state.time.recording ? color::kRecording : color::kAccent);
+        ImGui::TextUnformatted(flag.c_str());
         ImGui::PopStyleColor();
         ImGui::SameLine(0.0f, 1.4f * em());
     }
     const auto parts = statusParts(panel);
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (i)
-            ImGui::SameLine(0.0f, 1.4f * em());
+        if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(parts[i].c_str()).x > room)
+            break; // whole parts or none
         i == 0 ? ImGui::TextUnformatted(parts[i].c_str()) : dimText(parts[i]);
+        ImGui::SameLine(0.0f, 1.4f * em());
     }
-    const char* const hint = "F1 keys";
-    const float right = view.size.x - ImGui::CalcTextSize(hint).x - 0.9f * em();
-    ImGui::SameLine();
-    if (ImGui::GetCursorPosX() + 1.4f * em() < right) {
-        ImGui::SetCursorPosX(right);
-        dimText(hint);
-    } else {
-        ImGui::NewLine();
-    }
+    ImGui::SetCursorPosX(view.size.x - ImGui::CalcTextSize(hint).x - 0.9f * em());
+    dimText(hint);
     ImGui::End();
     ImGui::PopFont();
     ImGui::PopStyleVar();
 }
 
 void overlayLegend(const PanelContext& panel) {
-    const ViewState& state = panel.state;
-    if (!state.image || !hasRoom(panel))
+    if (panel.state.shown.kind == Shown::Kind::Picture || !hasRoom(panel))
+        return;
+    const PictureLegend legend = panel.bench.legend(panel.state.panes.active);
+    if (legend.name.empty())
         return;
     const UiRect view = inUnits(panel, panel.frame.layout.view);
-    const ImageDisplay& display = state.displays[*state.image];
-    ImGui::SetNextWindowPos({view.min.x + view.size.x - em(), view.min.y + em()}, ImGuiCond_Always,
-                            {1.0f, 0.0f});
+    ImGui::SetNextWindowPos(
+        {view.min.x + view.size.x - em(), view.min.y + view.size.y - kStatusHeight * em() - em()},
+        ImGuiCond_Always, {1.0f, 1.0f});
     ImGui::SetNextWindowBgAlpha(0.86f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.45f * em());
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * em(), 0.6f * em()});
     ImGui::Begin("legend", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize);
-    const AovInfo& aov = aovs()[*state.image];
     ImGui::PushFont(panel.fonts.strong);
-    ImGui::TextUnformatted(std::string(aov.name).c_str());
+    ImGui::TextUnformatted(legend.name.c_str());
     ImGui::PopFont();
     ImGui::PushFont(panel.fonts.small);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + 17.0f * em());
-    dimText(aov.meaning);
-    if (shownImage(state)) {
-        legendBody(display);
-    } else {
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-        ImGui::Text("%s does not make it: this is the picture.", titleOf(state.settings.filter));
-        ImGui::PopStyleColor();
-    }
+    if (!legend.meaning.empty())
+        dimText(legend.meaning);
+    if (legend.note.empty() && legend.display) // the pane's label has the note
+        legendBody(*legend.display);
     ImGui::PopTextWrapPos();
     ImGui::PopFont();
     ImGui::End();
@@ -196,12 +205,15 @@ void overlayLegend(const PanelContext& panel) {
 
 void overlayNotice(const PanelContext& panel) {
     const Notice& notice = panel.state.notice;
-    const bool broken = !panel.frame.shaderErrors.empty();
+    const auto errors = panel.bench.shaderErrors();
+    const bool broken = !errors.empty();
     if ((notice.secondsLeft <= 0.0 && !broken) || !hasRoom(panel))
         return;
     const UiRect view = inUnits(panel, panel.frame.layout.view);
     const float fade = broken ? 1.0f : float(std::min(notice.secondsLeft, 1.0));
-    ImGui::SetNextWindowPos({view.min.x + em(), view.min.y + em()});
+    ImGui::SetNextWindowPos(
+        {view.min.x + em(), view.min.y + view.size.y - kStatusHeight * em() - em()},
+        ImGuiCond_Always, {0.0f, 1.0f});
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::max(fade, 0.02f));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.45f * em());
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * em(), 0.6f * em()});
@@ -213,66 +225,12 @@ void overlayNotice(const PanelContext& panel) {
         ImGui::TextUnformatted(notice.text.c_str());
     ImGui::PopStyleColor();
     ImGui::PushStyleColor(ImGuiCol_Text, color::kError);
-    for (const std::string& error : panel.frame.shaderErrors)
+    for (const std::string& error : errors)
         ImGui::TextUnformatted(error.c_str());
     ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
     ImGui::End();
     ImGui::PopStyleVar(3);
-}
-
-void overlayHelp(const PanelContext& panel) {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const UiRect view = inUnits(panel, panel.frame.layout.view);
-    const ImVec2 end{view.min.x + view.size.x, view.min.y + view.size.y};
-    ImGui::GetBackgroundDrawList()->AddRectFilled(view.min, end,
-                                                  afterglow::packed(color::rgb(0, 0.6f)));
-    // In the middle of the picture, or of the window if it is wider than that.
-    const float middle = view.size.x > 52.0f * em() ? 0.5f * (view.min.x + end.x) : 0.5f * screen.x;
-    ImGui::SetNextWindowPos({middle, 0.5f * screen.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowBgAlpha(0.97f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.7f * em());
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {1.8f * em(), 1.4f * em()});
-    ImGui::Begin("keys", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoInputs);
-    ImGui::PushFont(panel.fonts.large);
-    ImGui::TextUnformatted("Keys");
-    ImGui::PopFont();
-    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {1.2f * em(), 0.0f});
-    if (ImGui::BeginTable("columns", 2,
-                          ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoPadOuterX)) {
-        std::string_view group;
-        const auto help = keyHelp();
-        const std::size_t half = std::size_t(
-            std::ranges::find(help, std::string_view("Camera"), &KeyHelp::group) - help.begin());
-        ImGui::TableNextColumn();
-        for (std::size_t i = 0; i < help.size(); ++i) {
-            if (i == half) {
-                ImGui::TableNextColumn();
-                group = {};
-            }
-            if (help[i].group != group) {
-                group = help[i].group;
-                ImGui::Dummy({0.0f, 0.2f * em()});
-                ImGui::PushFont(panel.fonts.strong);
-                ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-                ImGui::TextUnformatted(std::string(group).c_str());
-                ImGui::PopStyleColor();
-                ImGui::PopFont();
-            }
-            const float begin = ImGui::GetCursorPosX();
-            keyCap(help[i].keys);
-            ImGui::SameLine();
-            ImGui::SetCursorPos({begin + 6.5f * em(), ImGui::GetCursorPosY() + 0.2f * em()});
-            dimText(help[i].meaning);
-        }
-        ImGui::EndTable();
-    }
-    ImGui::PopStyleVar();
-    ImGui::End();
-    ImGui::PopStyleVar(2);
 }
 
 } // namespace afterglow

@@ -1,9 +1,11 @@
-// Filter, lights, and time and camera.
+// The title, and which filters share the view.
 
+#include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <imgui.h>
@@ -11,11 +13,7 @@
 namespace afterglow {
 namespace {
 
-constexpr double kMostPower = 4.0; // in multiples of the scene's
-
-float em() {
-    return ImGui::GetFontSize();
-}
+constexpr double kLeastGain = 0.25, kMostGain = 64.0;
 
 // 197202 as "197 202".
 std::string grouped(std::size_t number) {
@@ -25,58 +23,176 @@ std::string grouped(std::size_t number) {
     return digits;
 }
 
-// Width of each of `count` things beside each other.
-float shareOf(int count, float gap) {
-    return (ImGui::GetContentRegionAvail().x - gap * float(count - 1)) / float(count);
+// The sections below leave room for it: the header ends where they do.
+float scrollbar() {
+    return ImGui::GetStyle().ScrollbarSize;
 }
 
-} // namespace
+// What is open beside the pictures.
+void panelSwitches(ViewState& state) {
+    struct Row {
+        const char *name, *help;
+        bool open;
+        Action action;
+    };
+    const Row rows[] = {{"Inspector", "F2. All that is known of one pixel.", state.showInspector,
+                         Action::ToggleInspector},
+                        {"Passes", "F3. What each pass of a frame makes, and how long it takes.",
+                         state.showPasses, Action::TogglePasses},
+                        {"Curves", "F4. What the probes read, frame by frame.", state.showCurves,
+                         Action::ToggleCurves},
+                        {"Timeline", "F8. What happened in the last frames.", state.showStrip,
+                         Action::ToggleStrip}};
+    const float gap = 0.3f * em(), width = shareOf(4, gap) - 0.25f * scrollbar();
+    for (const Row& row : rows) {
+        if (&row != rows)
+            ImGui::SameLine(0.0f, gap);
+        if (quietButton(row.name, row.open, width))
+            perform(state, {row.action});
+        tooltip(row.help);
+    }
+}
 
-const char* titleOf(Filter filter) {
-    switch (filter) {
-    case Filter::None: return "None";
-    case Filter::Fixed: return "Fixed \xce\xb1";
-    case Filter::Svgf: return "SVGF";
-    case Filter::Asvgf: return "A-SVGF";
-    case Filter::Clamp: return "Clamp";
-    case Filter::Percentile: return "Percentile";
-    case Filter::Confidence: return "Confidence";
+void drawLayout(PaneLayout layout, ImVec2 center, ImU32 tint) {
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const float w = 0.72f * em(), h = 0.42f * em(), line = std::max(1.0f, 0.08f * em());
+    const ImVec2 low{std::round(center.x - w) + 0.5f, std::round(center.y - h) + 0.5f};
+    const ImVec2 high{low.x + std::round(2.0f * w), low.y + std::round(2.0f * h)};
+    const ImVec2 middle{std::round(center.x) + 0.5f, std::round(center.y) + 0.5f};
+    const float shift = 0.34f * em();
+    switch (layout) {
+    case PaneLayout::Single: draw->AddRect(low, high, tint, 0.0f, 0, line); return;
+    case PaneLayout::Wipe:
+        draw->AddRectFilled(middle, high, tint);
+        draw->AddRectFilled({middle.x, low.y}, high, tint);
+        draw->AddRect(low, high, tint, 0.0f, 0, line);
+        return;
+    case PaneLayout::FourUp:
+        draw->AddLine({low.x, middle.y}, {high.x, middle.y}, tint, line);
+        [[fallthrough]];
+    case PaneLayout::TwoUp:
+        draw->AddLine({middle.x, low.y}, {middle.x, high.y}, tint, line);
+        draw->AddRect(low, high, tint, 0.0f, 0, line);
+        return;
+    case PaneLayout::Difference: // two pictures, one on the other
+        draw->AddRectFilled({low.x + 2.0f * shift, low.y + 0.5f * shift},
+                            {high.x - 2.0f * shift, high.y - 0.5f * shift}, tint);
+        draw->AddRect({low.x, low.y - 0.3f * shift}, {high.x - shift, high.y - 0.8f * shift}, tint,
+                      0.0f, 0, line);
+        draw->AddRect({low.x + shift, low.y + 0.8f * shift}, {high.x, high.y + 0.3f * shift}, tint,
+                      0.0f, 0, line);
+        return;
+    }
+}
+
+const char* helpOf(PaneLayout layout) {
+    switch (layout) {
+    case PaneLayout::Single: return "One pane";
+    case PaneLayout::Wipe: return "Wipe: two panes on one picture, with a divider to drag";
+    case PaneLayout::TwoUp: return "Two up: two panes beside each other";
+    case PaneLayout::FourUp: return "Four up: all panes";
+    case PaneLayout::Difference: return "Difference of two panes";
     }
     return "";
 }
 
-void panelHeader(const PanelContext& panel) {
-    ImGui::PushFont(panel.fonts.large);
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-    ImGui::TextUnformatted("Afterglow");
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
-    ImGui::SameLine();
-    const float help = 2.4f * em();
-    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - help);
-    if (litButton("F1", panel.state.showHelp, help))
-        perform(panel.state, {Action::ToggleHelp});
-    tooltip("All keys");
-
-    const SceneStats& stats = panel.frame.sceneStats;
-    const std::size_t lights = panel.state.lights.size();
-    dimText(panel.frame.scene.name + ": " + grouped(stats.triangles) + " triangles, " +
-            std::to_string(lights) + (lights == 1 ? " light" : " lights"));
-    char more[400];
-    std::snprintf(more, sizeof more,
-                  "%zu instances\n%zu nodes of the bounding volume hierarchy, built in %.1f ms\n"
-                  "%.1f MiB of images\n%s\nOpenGL %s",
-                  stats.instances, stats.bvhNodes, stats.bvhBuildMilliseconds,
-                  double(panel.frame.imageBytes) / (1024.0 * 1024.0),
-                  panel.frame.gl.renderer.c_str(), panel.frame.gl.version.c_str());
-    tooltip(more);
-    ImGui::Dummy({0.0f, 0.1f * em()});
+void layoutButtons(Panes& panes) {
+    const float gap = 0.3f * em(), width = shareOf(int(kPaneLayouts), gap);
+    for (std::size_t i = 0; i < kPaneLayouts; ++i) {
+        const auto layout = PaneLayout(i);
+        if (i > 0)
+            ImGui::SameLine(0.0f, gap);
+        ImGui::PushID(int(i));
+        if (quietButton("##layout", panes.layout == layout, width))
+            chooseLayout(panes, layout);
+        ImGui::PopID();
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        drawLayout(layout, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)},
+                   packed(panes.layout == layout ? color::kOnFill : color::kText));
+        tooltip(std::string(helpOf(layout)) +
+                ".\nT and Shift T go through the layouts. All panes see the same noise.");
+    }
 }
 
-void panelFilter(const PanelContext& panel) {
-    if (!section(panel.fonts, "Filter", true))
+bool showsPair(PaneLayout layout) {
+    return layout != PaneLayout::Single && layout != PaneLayout::FourUp;
+}
+
+// "left" and "right", or what is subtracted from what.
+const char* roleOf(const Panes& panes, std::size_t pane) {
+    if (!showsPair(panes.layout))
+        return "";
+    const bool difference = panes.layout == PaneLayout::Difference;
+    if (pane == panes.pair[0])
+        return difference ? "from" : "left";
+    if (pane == panes.pair[1])
+        return difference ? "minus" : "right";
+    return "";
+}
+
+// A letter over the title of the filter.
+void paneTab(const PanelContext& panel, std::size_t pane, float width) {
+    Panes& panes = panel.state.panes;
+    const bool active = pane == panes.active, shown = isShown(panes, pane);
+    const ImVec2 size{width, 2.9f * em()};
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::InvisibleButton("pane", size))
+        choosePane(panes, pane);
+    focusRing();
+    const bool hovered = ImGui::IsItemHovered();
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    const float rounding = ImGui::GetStyle().FrameRounding, pad = 0.45f * em();
+    const ImVec2 end{at.x + size.x, at.y + size.y};
+    draw->AddRectFilled(at, end,
+                        packed(active    ? color::kFrameActive
+                               : hovered ? color::kFrameHovered
+                               : shown   ? color::kFrame
+                                         : color::kRaised),
+                        rounding);
+    const ImVec4 tint = color::kPanes[pane];
+    if (active)
+        draw->AddRect(at, end, packed(tint), rounding, 0, std::max(1.0f, 0.1f * em()));
+    const char letter[2] = {letterOf(pane), 0};
+    const float top = at.y + 0.3f * em();
+    draw->AddText(panel.fonts.strong, em(), {at.x + pad, top}, packed(tint), letter);
+    ImGui::PushFont(panel.fonts.small);
+    const char* const role = roleOf(panes, pane);
+    draw->AddText({end.x - pad - ImGui::CalcTextSize(role).x, top + 0.1f * em()},
+                  packed(color::kDim), role);
+    const std::string title = clipped(titleOf(panes.all[pane]), size.x - 2.0f * pad);
+    draw->AddText({at.x + pad, top + 1.35f * em()}, packed(shown ? color::kText : color::kDim),
+                  title.c_str());
+    ImGui::PopFont();
+
+    const Pane& told = panes.all[pane];
+    const std::string parameters = parametersOf(told);
+    tooltip("Pane " + std::string(letter) + ": " + titleOf(told) +
+            (parameters.empty() ? "" : "\n" + parameters) +
+            (shown ? "" : "\nA click shows it in place of the active pane.") +
+            "\nG and Shift G go through the panes. Keys and this panel speak to the active one.");
+}
+
+void pairRow(Panes& panes) {
+    if (!showsPair(panes.layout))
         return;
-    ViewState& state = panel.state;
+    if (panes.layout == PaneLayout::Difference) {
+        rowLabel("Gain");
+        double gain = panes.gain;
+        const float swap = 4.2f * em();
+        ImGui::SetNextItemWidth(-swap - 0.3f * em());
+        if (slider("##gain", gain, {kLeastGain, kMostGain, true}, "%.3g \xc3\x97"))
+            panes.gain = float(gain);
+        tooltip("The difference is multiplied by it. Gray is none. Ctrl-click to type.");
+        ImGui::SameLine(0.0f, 0.3f * em());
+        if (litButton("Swap", false, swap))
+            swapPair(panes);
+    } else if (litButton("Swap left and right", false, ImGui::GetContentRegionAvail().x)) {
+        swapPair(panes);
+    }
+    tooltip("X");
+}
+
+void filterButtons(ViewState& state) {
     const float gap = 0.3f * em();
     constexpr int kInRow = 4;
     const float width = shareOf(kInRow, gap);
@@ -84,112 +200,88 @@ void panelFilter(const PanelContext& panel) {
     for (const Filter filter : allFilters()) {
         if (place++ % kInRow != 0)
             ImGui::SameLine(0.0f, gap);
-        if (litButton(titleOf(filter), state.settings.filter == filter, width))
+        if (litButton(std::string(titleOf(filter)).c_str(), state.settings().filter == filter,
+                      width))
             chooseFilter(state, filter);
-        tooltip(std::string(describe(filter)));
+        tooltip(std::string(describe(filter)) + "\nF and Shift F go through the filters.");
     }
-    ImGui::PushFont(panel.fonts.small);
-    dimWrapped(describe(state.settings.filter));
-    ImGui::PopFont();
-
-    const float third = shareOf(3, gap);
-    if (litButton(state.paused ? "Resume" : "Pause", state.paused, third))
-        togglePause(state);
-    tooltip("P or space. While paused nothing is rendered: changes show with the next step.");
     ImGui::SameLine(0.0f, gap);
-    if (litButton("Step", false, third))
-        stepOnce(state);
-    tooltip("N. Renders one frame, then pauses.");
-    ImGui::SameLine(0.0f, gap);
-    if (litButton("Forget history", false, third))
-        perform(state, {Action::ResetHistory});
-    tooltip("H. The next frame starts from nothing, as after a cut.");
+    if (litButton("Presets", state.showPresets, width))
+        perform(state, {Action::TogglePresets});
+    tooltip("F7. Filters with the parameters of papers and of other programs, and your own.");
 }
 
-void panelLights(const PanelContext& panel) {
-    if (!section(panel.fonts, "Lights", true))
+void gradientSamples(Panes& panes) {
+    const Field& field = fieldByKey("gradientSamples");
+    rowLabel("Gradient samples");
+    constexpr const char* kNames[] = {"Merged", "Extra"};
+    const int now = int(fieldValue(panes.all[panes.active].settings, field));
+    if (const auto chosen = segments("placement", kNames, now))
+        setField(panes, field, double(*chosen));
+    tooltip(std::string(field.meaning) + "\nFor all panes.");
+}
+
+} // namespace
+
+void panelHeader(const PanelContext& panel) {
+    ViewState& state = panel.state;
+    ImGui::PushFont(panel.fonts.large);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
+    ImGui::TextUnformatted("Afterglow");
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    ImGui::SameLine();
+    const float help = 2.4f * em(), tour = 3.4f * em(), gap = 0.3f * em();
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - scrollbar() - help - gap - tour);
+    if (litButton("Tour", state.tourStop.has_value(), tour))
+        perform(state, {Action::ToggleTour});
+    tooltip("F6. What the filters do and where they fail, in a few stops.");
+    ImGui::SameLine(0.0f, gap);
+    if (litButton("F1", state.showHelp, help))
+        perform(state, {Action::ToggleHelp});
+    tooltip("All keys");
+
+    const SceneStats& stats = panel.bench.renderer().sceneStats();
+    const std::size_t lights = state.lights.size();
+    const std::string facts = panel.bench.scene().name + ": " + grouped(stats.triangles) +
+                              " triangles, " + std::to_string(lights) +
+                              (lights == 1 ? " light" : " lights");
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
+    clippedText(facts, ImGui::GetContentRegionAvail().x);
+    ImGui::PopStyleColor();
+    const GlInfo& gl = panel.bench.gl();
+    char more[512];
+    std::snprintf(more, sizeof more,
+                  "%s\n%zu instances\n%zu nodes of the bounding volume hierarchy, built in %.1f "
+                  "ms\n%.1f MiB of images\n%s\nOpenGL %s",
+                  state.sceneName.c_str(), stats.instances, stats.bvhNodes,
+                  stats.bvhBuildMilliseconds, double(panel.bench.imageBytes()) / (1024.0 * 1024.0),
+                  gl.renderer.c_str(), gl.version.c_str());
+    tooltip(more);
+    panelSwitches(state);
+    ImGui::Dummy({0.0f, 0.1f * em()});
+}
+
+void panelFilter(const PanelContext& panel) {
+    if (!section(panel.fonts, "Filter", true))
         return;
     ViewState& state = panel.state;
-    for (std::size_t slot = 0; slot < state.lights.size(); ++slot) {
-        LightState& light = state.lights[slot];
-        ImGui::PushID(int(slot));
-        if (switchButton("on", light.on))
-            toggleLight(state, slot);
-        const std::string key = slot < 9 ? "Key " + std::to_string(slot + 1) : std::string();
-        tooltip(key.empty() ? "On or off" : key + (state.lightNames[slot] == "key" ? " or L" : ""));
-        ImGui::SameLine(0.0f, 0.6f * em());
-        ImGui::AlignTextToFramePadding();
-        const float name = 0.36f * ImGui::GetContentRegionAvail().x;
-        const float begin = ImGui::GetCursorPosX();
-        if (clippedText(state.lightNames[slot], name))
-            tooltip(state.lightNames[slot]);
-        ImGui::SameLine(begin + name + 0.4f * em());
-        ImGui::SetNextItemWidth(-3.5f * em());
-        ImGui::BeginDisabled(!light.on);
-        double power = light.power;
-        if (slider("##power", power, {0.0, kMostPower}, "%.2f \xc3\x97"))
-            light.power = float(power);
-        tooltip("Radiance, in multiples of the scene's. Ctrl-click to type.");
-        ImGui::SameLine(0.0f, 0.4f * em());
-        ImGui::ColorEdit3("##tint", &light.tint.x,
-                          ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float |
-                              ImGuiColorEditFlags_NoTooltip);
-        tooltip("Tint of this light, linear");
-        ImGui::EndDisabled();
-        if (light.power != 1.0f || light.tint != glm::vec3(1.0f)) {
-            ImGui::SameLine(0.0f, 0.3f * em());
-            if (resetButton("reset"))
-                light = {.on = light.on};
-            tooltip("As the scene has it");
-        }
+    layoutButtons(state.panes);
+    const float gap = 0.3f * em(), width = shareOf(int(kFilterStates), gap);
+    for (std::size_t pane = 0; pane < kFilterStates; ++pane) {
+        if (pane > 0)
+            ImGui::SameLine(0.0f, gap);
+        ImGui::PushID(int(pane));
+        paneTab(panel, pane, width);
         ImGui::PopID();
     }
-    if (state.lights.empty())
-        dimText("This scene has none.");
-}
-
-void panelMotion(const PanelContext& panel) {
-    if (!section(panel.fonts, "Time and camera", false))
-        return;
-    ViewState& state = panel.state;
-    rowLabel("Movement");
-    ImGui::BeginDisabled(!state.isAnimated);
-    if (switchButton("animate", state.animate && state.isAnimated))
-        toggleAnimation(state);
-    ImGui::EndDisabled();
-    tooltip(state.isAnimated ? "M. Plays the scene's own animation."
-                             : "Nothing moves in this scene.");
-
-    rowLabel("Time step");
-    int step = int(state.timeStep);
-    if (ImGui::Combo("##step", &step, "1/60 s a frame\0wall clock\0"))
-        state.timeStep = TimeStep(step);
-    tooltip("How far scene time goes from frame to frame. With a fixed step a run can be repeated "
-            "exactly.");
-
-    if (state.cameraNames.size() > 1) {
-        rowLabel("Camera");
-        if (ImGui::BeginCombo("##camera", state.cameraNames[state.cameraIndex].c_str())) {
-            for (std::size_t i = 0; i < state.cameraNames.size(); ++i)
-                if (ImGui::Selectable(state.cameraNames[i].c_str(), i == state.cameraIndex))
-                    chooseCamera(state, panel.frame.scene, i);
-            ImGui::EndCombo();
-        }
-    }
-    rowLabel("Flying speed");
-    const double standard = defaultSpeed(state.extent);
-    double speed = state.speed;
-    if (slider("##speed", speed, {standard / 50.0, standard * 50.0, true}, "%.3g m/s"))
-        state.speed = float(speed);
-    tooltip("The wheel changes it; Shift is four times as fast.");
-    const glm::vec3 eye = state.camera.position;
-    char where[96];
-    std::snprintf(where, sizeof where, "%.2f  %.2f  %.2f m", eye.x, eye.y, eye.z);
-    rowLabel("Position");
-    dimText(where);
-    if (litButton("Back to the scene's camera", false, ImGui::GetContentRegionAvail().x))
-        goHome(state);
-    tooltip("R or Home");
+    pairRow(state.panes);
+    ImGui::Dummy({0.0f, 0.05f * em()});
+    filterButtons(state);
+    ImGui::PushFont(panel.fonts.small);
+    dimWrapped(describe(state.settings().filter));
+    ImGui::PopFont();
+    gradientSamples(state.panes);
 }
 
 } // namespace afterglow

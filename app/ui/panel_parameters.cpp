@@ -1,5 +1,6 @@
-// Sliders for every tunable, made from the field table.
+// Sliders for every tunable of the active pane, made from the field table.
 
+#include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
@@ -32,14 +33,46 @@ int changedIn(const Settings& settings, std::string_view group) {
     }));
 }
 
+void resetGroup(Panes& panes, std::string_view group) {
+    for (const Field& field : fields())
+        if (field.group == group)
+            setField(panes, field, fieldValue(Settings{}, field));
+}
+
+void copyRow(ViewState& state) {
+    Panes& panes = state.panes;
+    rowLabel("Copy to");
+    const float gap = 0.25f * em();
+    const float width = shareOf(int(kFilterStates) - 1, gap);
+    bool first = true;
+    for (std::size_t pane = 0; pane < kFilterStates; ++pane) {
+        if (pane == panes.active)
+            continue;
+        if (!first)
+            ImGui::SameLine(0.0f, gap);
+        first = false;
+        const char name[2] = {letterOf(pane), 0};
+        if (litButton(name, false, width)) {
+            copyPane(panes, panes.active, pane);
+            notify(state,
+                   std::string("Pane ") + name + " is now like pane " + letterOf(panes.active));
+        }
+        tooltip(std::string("Sets pane ") + name + " to this filter and its parameters");
+    }
+}
+
 } // namespace
 
 void panelParameters(const PanelContext& panel) {
-    if (!section(panel.fonts, "Parameters", true))
-        return;
     ViewState& state = panel.state;
+    Panes& panes = state.panes;
+    const Pane& active = panes.all[panes.active];
+    const std::string note = std::string(1, letterOf(panes.active)) + "  " + titleOf(active);
+    if (!section(panel.fonts, "Parameters", false, note, color::kPanes[panes.active]))
+        return;
+    copyRow(state);
     for (const std::string_view group : groups()) {
-        const int changed = changedIn(state.settings, group);
+        const int changed = changedIn(active.settings, group);
         const std::string title = capitalized(group) +
                                   (changed ? ", " + std::to_string(changed) + " changed" : "") +
                                   "###" + std::string(group);
@@ -51,16 +84,16 @@ void panelParameters(const PanelContext& panel) {
                                                                ImGuiTreeNodeFlags_SpanAvailWidth |
                                                                ImGuiTreeNodeFlags_FramePadding);
         ImGui::PopStyleColor(3);
+        if (group == "lighting")
+            tooltip("The same in all panes");
         if (!open)
             continue;
         for (const Field& field : fields())
             if (field.group == group)
-                fieldRow(state.settings, field);
+                fieldRow(panes, field);
         if (changed && litButton(("Defaults##" + std::string(group)).c_str(), false,
                                  ImGui::GetContentRegionAvail().x))
-            for (const Field& field : fields())
-                if (field.group == group)
-                    resetField(state.settings, field);
+            resetGroup(panes, group);
     }
 }
 

@@ -1,35 +1,102 @@
-// What the picture shows, how large and how bright.
+// What the panes show, how large and how bright, and the truth of a frozen frame.
 
+#include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include <imgui.h>
 
 namespace afterglow {
 namespace {
 
-void chooseImage(ViewState& state) {
+// The first image of each group, in the order of aovs().
+struct ImageGroup {
+    std::string_view first;
+    const char* title;
+};
+constexpr ImageGroup kGroups[] = {{"color", "Light"},
+                                  {"albedo", "Surfaces"},
+                                  {"moments", "History"},
+                                  {"lambda", "Change of light"}};
+
+std::string shownName(const PanelContext& panel) {
+    const Shown& shown = panel.state.shown;
+    switch (shown.kind) {
+    case Shown::Kind::Picture: return "picture";
+    case Shown::Kind::Aov:
+        return shown.index < aovs().size() ? std::string(aovs()[shown.index].name) : std::string();
+    case Shown::Kind::Pass: {
+        const auto& made = panel.bench.passes().made();
+        if (shown.index >= made.size())
+            return "a pass";
+        return made[shown.index].pass + ": " + made[shown.index].image;
+    }
+    case Shown::Kind::Oracle: return std::string(nameOf(OracleImage(shown.index)));
+    }
+    return {};
+}
+
+void chooseImage(const PanelContext& panel) {
+    ViewState& state = panel.state;
     rowLabel("Image");
-    const char* now = state.image ? state.displays[*state.image].name.data() : "picture";
-    if (ImGui::BeginCombo("##image", now, ImGuiComboFlags_HeightLarge)) {
-        if (ImGui::Selectable("picture", !state.image))
-            state.image.reset();
+    if (ImGui::BeginCombo("##image", shownName(panel).c_str(), ImGuiComboFlags_HeightLargest)) {
+        if (ImGui::Selectable("picture", state.shown.kind == Shown::Kind::Picture))
+            show(state, Shown::Kind::Picture);
         tooltip("The denoised picture, tone-mapped");
-        for (std::size_t i = 0; i < state.displays.size(); ++i) {
+        for (std::size_t i = 0; i < aovs().size(); ++i) {
             const AovInfo& aov = aovs()[i];
-            const bool made = isMadeBy(aov, state.settings.filter, state.settings.denoiser);
-            ImGui::BeginDisabled(!made);
-            if (ImGui::Selectable(std::string(aov.name).c_str(), state.image == i))
-                state.image = i;
-            ImGui::EndDisabled();
-            tooltip(std::string(aov.meaning) + (made ? "" : "\nThis filter does not make it."));
+            for (const ImageGroup& group : kGroups)
+                if (group.first == aov.name)
+                    groupTitle(panel.fonts, group.title);
+            const bool made = isMadeBy(aov, state.settings().filter, state.settings().denoiser);
+            ImGui::PushStyleColor(ImGuiCol_Text, made ? color::kText : color::kFaint);
+            const Shown wanted{Shown::Kind::Aov, i};
+            if (ImGui::Selectable(std::string(aov.name).c_str(), state.shown == wanted))
+                state.shown = wanted;
+            ImGui::PopStyleColor();
+            tooltip(std::string(aov.meaning) +
+                    (made ? "" : "\nThe filter of the active pane does not make it."));
         }
         ImGui::EndCombo();
     }
-    tooltip("V goes through them, B returns to the picture. Names as in render --aov.");
+    tooltip("V and Shift V go through them, B returns to the picture. Names as in render --aov.");
+}
+
+// How the image that is shown is shown; null for the picture and for what a pass made.
+ImageDisplay* shownDisplay(ViewState& state) {
+    if (state.shown.kind == Shown::Kind::Oracle && state.shown.index < kOracleImages)
+        return &state.oracleDisplays[state.shown.index];
+    if (state.shown.kind == Shown::Kind::Aov && state.shown.index < state.displays.size())
+        return &state.displays[state.shown.index];
+    return nullptr;
+}
+
+constexpr std::array<int, 3> kMaps = {gpu::kMapScalar, gpu::kMapLogarithm, gpu::kMapSigned};
+
+void chooseMap(ImageDisplay& display) {
+    const auto now = std::ranges::find(kMaps, display.map);
+    if (now == kMaps.end())
+        return;
+    rowLabel("Colors");
+    constexpr const char* kNames[] = {"Linear", "Log", "Signed"};
+    const auto chosen = segments("map", kNames, int(now - kMaps.begin()));
+    if (chosen && kMaps[std::size_t(*chosen)] != display.map) {
+        display.map = kMaps[std::size_t(*chosen)];
+        display.high = std::max(std::abs(display.high), 1e-6f);
+        if (display.map == gpu::kMapSigned)
+            display.low = -display.high;
+        else if (display.map == gpu::kMapLogarithm)
+            display.low = display.low > 0.0f ? display.low : 1e-3f * display.high;
+        else
+            display.low = std::max(display.low, 0.0f);
+    }
+    tooltip("Equal steps of color for equal steps of the value, or for equal factors, or blue "
+            "below zero and orange above.");
 }
 
 void chooseRange(ViewState& state, ImageDisplay& display) {
@@ -37,8 +104,8 @@ void chooseRange(ViewState& state, ImageDisplay& display) {
     if (ends == 0)
         return;
     rowLabel("Range");
-    const float fit = 3.2f * ImGui::GetFontSize();
-    ImGui::SetNextItemWidth(-fit - 0.4f * ImGui::GetFontSize());
+    const float fit = 2.6f * em(), gap = 0.3f * em();
+    ImGui::SetNextItemWidth(-fit - gap);
     const float step = std::max(std::abs(display.high), 1e-6f) * 0.01f;
     if (ends == 2) {
         const float least = display.map == gpu::kMapLogarithm ? 1e-9f : -1e9f;
@@ -51,26 +118,48 @@ void chooseRange(ViewState& state, ImageDisplay& display) {
             display.low = -display.high;
     }
     tooltip("Drag, or ctrl-click to type. Values outside have the color of the end.");
-    ImGui::SameLine(0.0f, 0.4f * ImGui::GetFontSize());
+    ImGui::SameLine(0.0f, gap);
     if (litButton("Fit", false, fit))
-        state.fitRangeWanted = true;
+        state.wanted.fitRange = true;
     tooltip("Fits the range to this frame: all but the outermost hundredth");
 }
 
-} // namespace
+void chooseSamples(ViewState& state) {
+    constexpr int kChoices[] = {64, 256, 1024, 4096, 16384};
+    rowLabel("Samples");
+    if (ImGui::BeginCombo("##samples",
+                          (std::to_string(state.oracleSamples) + " a pixel").c_str())) {
+        for (const int samples : kChoices)
+            if (ImGui::Selectable((std::to_string(samples) + " a pixel").c_str(),
+                                  samples == state.oracleSamples))
+                state.oracleSamples = samples;
+        ImGui::EndCombo();
+    }
+    tooltip("Of the reference. Four times as many halve its noise and take four times as long.");
+}
 
-void panelView(const PanelContext& panel) {
-    if (!section(panel.fonts, "View", true))
+// The truth: what is only known once the frame stands still.
+void oracle(ViewState& state) {
+    rowLabel("Freeze");
+    if (switchButton("freeze", state.frozen))
+        toggleFreeze(state);
+    tooltip("U. Holds this moment and converges its reference, with which the picture, lambda and "
+            "alpha can be compared. The histories stay as they are.");
+    if (!state.frozen)
         return;
-    ViewState& state = panel.state;
-    chooseImage(state);
-    if (const auto shown = shownImage(state))
-        chooseRange(state, state.displays[*shown]);
-    else
-        for (const Field& field : fields())
-            if (field.group == "display")
-                fieldRow(state.settings, field);
+    chooseSamples(state);
+    const float gap = 0.3f * em(), width = shareOf(3, gap);
+    for (std::size_t i = 0; i < kOracleImages; ++i) {
+        if (i % 3 != 0)
+            ImGui::SameLine(0.0f, gap);
+        const Shown wanted{Shown::Kind::Oracle, i};
+        if (litButton(std::string(nameOf(OracleImage(i))).c_str(), state.shown == wanted, width))
+            state.shown = wanted;
+        tooltip(std::string(describe(OracleImage(i))) + "\nShift U goes through these.");
+    }
+}
 
+void chooseResolution(ViewState& state) {
     rowLabel("Resolution");
     const auto choices = resolutions();
     const auto now = std::ranges::find(choices, state.resolution, &NamedResolution::resolution);
@@ -83,15 +172,56 @@ void panelView(const PanelContext& panel) {
                 state.resolution = resolution;
         ImGui::EndCombo();
     }
-    tooltip("+ and -. Pixels that are rendered. A fixed size is scaled into the window with its "
-            "proportions "
-            "kept; software rendering starts with 640 \xc3\x97 360 so that it stays quick. Another "
-            "size "
-            "clears the history.");
+    tooltip("+ and -. Pixels that are rendered, in every pane. A fixed size is scaled into the "
+            "window with its proportions kept; software rendering starts with 640 \xc3\x97 360 so "
+            "that it stays quick. Another size clears the history.");
+}
+
+std::string percent(float scale) {
+    char text[32];
+    if (scale <= 0.0f)
+        return "as the screen";
+    std::snprintf(text, sizeof text, "%.0f %%", 100.0 * double(scale));
+    return text;
+}
+
+void screenRows(Preferences& preferences) {
     rowLabel("Smooth scaling");
-    if (switchButton("smooth", state.smoothScaling))
-        state.smoothScaling = !state.smoothScaling;
+    if (switchButton("smooth", preferences.smoothScaling))
+        preferences.smoothScaling = !preferences.smoothScaling;
     tooltip("Off: every rendered pixel is a sharp square");
+    rowLabel("Wait for screen");
+    if (switchButton("vsync", preferences.vsync))
+        preferences.vsync = !preferences.vsync;
+    tooltip("F11. Off: frames are rendered as fast as they can be, and may tear.");
+    rowLabel("Size of text");
+    if (ImGui::BeginCombo("##scale", percent(preferences.uiScale).c_str())) {
+        for (const float scale : {0.0f, 0.8f, 0.9f, 1.0f, 1.1f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f})
+            if (ImGui::Selectable(percent(scale).c_str(), scale == preferences.uiScale))
+                preferences.uiScale = scale;
+        ImGui::EndCombo();
+    }
+    tooltip("Of the whole interface. It is remembered.");
+}
+
+} // namespace
+
+void panelView(const PanelContext& panel) {
+    ViewState& state = panel.state;
+    const bool picture = state.shown.kind == Shown::Kind::Picture;
+    if (!section(panel.fonts, "View", true, picture ? std::string() : shownName(panel),
+                 color::kAccent))
+        return;
+    chooseImage(panel);
+    if (ImageDisplay* const display = shownDisplay(state)) {
+        chooseMap(*display);
+        chooseRange(state, *display);
+    } else if (picture) {
+        fieldRow(state.panes, fieldByKey("exposure"));
+    }
+    oracle(state);
+    chooseResolution(state);
+    screenRows(state.preferences);
 }
 
 } // namespace afterglow

@@ -6,7 +6,8 @@ namespace afterglow {
 
 /// What panels are drawn with.
 struct PanelContext {
-    ViewState& state;
+    Workbench& bench;
+    ViewState& state; ///< the workbench's
     const UiFrame& frame;
     const Fonts& fonts;
     float scale; ///< screen coordinates per framebuffer pixel, for positions
@@ -14,20 +15,33 @@ struct PanelContext {
 
 // The sections of the side panel, from top to bottom.
 void panelHeader(const PanelContext& panel);
-void panelFilter(const PanelContext& panel);
-void panelLights(const PanelContext& panel);
-void panelView(const PanelContext& panel);
-void panelMotion(const PanelContext& panel);
-void panelParameters(const PanelContext& panel);
-void panelTimings(const PanelContext& panel);
+void panelFilter(const PanelContext& panel);     ///< layout, panes, filter of the active pane
+void panelLights(const PanelContext& panel);     ///< switches, and what can happen at a press
+void panelTime(const PanelContext& panel);       ///< pause, step, takes, repeat
+void panelView(const PanelContext& panel);       ///< image, range, resolution, freeze
+void panelCamera(const PanelContext& panel);     ///< cameras, places, path, speed
+void panelParameters(const PanelContext& panel); ///< every tunable of the active pane
+void panelFiles(const PanelContext& panel);      ///< open, recent, pictures, recording
 
-// Over the picture.
+// In places of their own; see Layout.
+void sideInspector(const PanelContext& panel);
+void sidePasses(const PanelContext& panel);
+void dockCurves(const PanelContext& panel);
+void dockStrip(const PanelContext& panel);
+
+// Over the pictures.
+void overlayPanes(const PanelContext& panel);  ///< labels, divider, frame of the active one
+void overlayProbes(const PanelContext& panel); ///< boxes of probes, the inspected pixel
 void overlayStatus(const PanelContext& panel);
 void overlayLegend(const PanelContext& panel);
+void overlayOracle(const PanelContext& panel); ///< progress while frozen
 void overlayNotice(const PanelContext& panel);
+void overlayTour(const PanelContext& panel);
+void overlayPresets(const PanelContext& panel); ///< presets and lineages: load, save, compare
 void overlayHelp(const PanelContext& panel);
 
-/// "A-SVGF"; for a person, where nameOf() is for files.
-const char* titleOf(Filter filter);
+/// A color for everything that stands for a pane, or for a probe.
+ImU32 paneColor(std::size_t pane);
+ImU32 probeColor(std::size_t probe);
 
 } // namespace afterglow

@@ -20,8 +20,9 @@ constexpr FontFiles kFontFiles[] = {
      "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf"},
 };
 
-// Latin, Greek for the formulas, and the dashes and quotes of running text.
-constexpr ImWchar kGlyphs[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0};
+// Latin, Greek for the formulas, the dashes and quotes of running text, arrows, and the minus.
+constexpr ImWchar kGlyphs[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027,
+                               0x2190, 0x2193, 0x2212, 0x2212, 0};
 
 ImFont* load(const char* file, float pixels) {
     ImFontConfig config;
@@ -94,7 +95,9 @@ void applyTheme(float scale) {
     c[ImGuiCol_ScrollbarGrabActive] = kFrameActive;
     c[ImGuiCol_TextSelectedBg] = rgb(0xe9a15b, 0.35f);
     c[ImGuiCol_TableBorderLight] = kLine;
+    c[ImGuiCol_TableRowBgAlt] = rgb(0xffffff, 0.02f);
     c[ImGuiCol_PlotHistogram] = kAccent;
+    c[ImGuiCol_NavHighlight] = kAccent;
     ImGui::GetStyle() = style;
 }
 

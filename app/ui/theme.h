@@ -20,10 +20,17 @@ inline const ImVec4 kText = rgb(0xd8dbe2);
 inline const ImVec4 kDim = rgb(0x8d94a3);
 inline const ImVec4 kFaint = rgb(0x5d6472);
 inline const ImVec4 kAccent = rgb(0xe9a15b); // the color of the sky an hour after sunset
+inline const ImVec4 kLit = rgb(0xcf8a48);    ///< ground of what is on
 inline const ImVec4 kAccentDeep = rgb(0x9c6531);
 inline const ImVec4 kFill = rgb(0x56412b); ///< of a slider up to its value
+inline const ImVec4 kOnFill = rgb(0xf2c590);
 inline const ImVec4 kOnAccent = rgb(0x1a120a);
 inline const ImVec4 kError = rgb(0xe06c6c);
+inline const ImVec4 kGood = rgb(0x8fcf8a);
+inline const ImVec4 kRecording = rgb(0xe05656);
+/// By pane and by probe: what stands for one has its color everywhere; see paneColor().
+inline const ImVec4 kPanes[4] = {rgb(0xe9a15b), rgb(0x6aa9e9), rgb(0x8fcf8a), rgb(0xd58ad0)};
+inline const ImVec4 kProbes[4] = {rgb(0xf2f2f2), rgb(0xe6d55a), rgb(0x67d4d4), rgb(0xf090a0)};
 } // namespace color
 
 inline ImU32 packed(ImVec4 c) {

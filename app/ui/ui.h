@@ -1,10 +1,10 @@
 #pragma once
 
 #include "app/ui/theme.h"
-#include "app/workbench/pass_timings.h"
-#include "app/workbench/view_state.h"
-#include "renderer/gl/context.h"
-#include "renderer/pipeline/renderer.h"
+#include "app/workbench/layout.h"
+#include "app/workbench/pointer.h"
+#include "app/workbench/tour.h"
+#include "app/workbench/workbench.h"
 
 #include <span>
 #include <string>
@@ -15,21 +15,16 @@ namespace afterglow {
 
 class Window;
 
-/// What the interface shows and cannot change.
+/// What the interface is drawn around.
 struct UiFrame {
-    const Scene& scene;
-    const SceneStats& sceneStats;
-    const GlInfo& gl;
-    const PassTimings& timings;
-    Layout layout;           ///< framebuffer pixels
-    glm::ivec2 imageSize{0}; ///< as rendered
-    FrameStats stats;        ///< of a recent frame
-    double raysPerSecond = 0.0;
-    std::size_t imageBytes = 0;                ///< of all images on the device
-    std::span<const std::string> shaderErrors; ///< from the last attempt to reload shaders
+    Layout layout;                     ///< framebuffer pixels
+    std::span<const PanePlace> places; ///< where the panes' pictures are
+    const Pointer& pointer;
+    std::span<const TourStop> tour;
 };
 
-/// Panels and overlays by Dear ImGui. They hold no state that matters: everything is in ViewState.
+/// Panels and overlays by Dear ImGui. They hold no state that matters: everything is in the
+/// workbench's ViewState.
 class Ui {
 public:
     explicit Ui(Window& window);
@@ -37,21 +32,27 @@ public:
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
 
-    int panelWidth() const; ///< framebuffer pixels
+    /// The room that what is open wants, in framebuffer pixels.
+    LayoutWishes wishes(const ViewState& state) const;
 
     /// Draws over what is in the back buffer, and changes the state as widgets are used.
-    void draw(ViewState& state, const UiFrame& frame);
+    void draw(Workbench& workbench, const UiFrame& frame);
 
-    bool wantsMouse() const;    ///< it is over a panel, or a widget holds it
+    bool wantsMouse() const; ///< it is over a panel, or a widget holds it
+    /// Something lies over the pictures and has the mouse, or a widget holds it. Where the mouse is
+    /// over a panel beside them this does not tell: it may have moved on since the last frame.
+    bool coversPictures(const ViewState& state) const;
     bool wantsKeyboard() const; ///< somebody types
 
 private:
     void loadFontsFor(float contentScale);
+    void followKeyboard(const ViewState& state);
 
     Window& window_;
     ImGuiContext* context_;
     Fonts fonts_;
-    float contentScale_ = 0.0f; ///< that the fonts are made for
+    float contentScale_ = 0.0f;    ///< that the fonts are made for
+    bool keyboardInPanel_ = false; ///< as the state had it in the last frame
 };
 
 } // namespace afterglow

@@ -1,6 +1,6 @@
 #include "app/ui/widgets.h"
 
-#include "app/workbench/view_state.h"
+#include "app/ui/draw.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,16 +9,8 @@
 namespace afterglow {
 namespace {
 
-float em() {
-    return ImGui::GetFontSize();
-}
-
 void text(std::string_view words) {
     ImGui::TextUnformatted(words.data(), words.data() + words.size());
-}
-
-float widthOf(std::string_view words) {
-    return ImGui::CalcTextSize(words.data(), words.data() + words.size()).x;
 }
 
 // An arrow that goes back in a circle.
@@ -36,54 +28,55 @@ void drawResetIcon(ImVec2 center, float radius, ImU32 tint) {
                             {foot.x - s * out.x, foot.y - s * out.y}, tint);
 }
 
-bool isWhole(const Field& field) {
-    Settings any;
-    return std::holds_alternative<int*>(field.ref(any));
+ImVec4 brighter(ImVec4 c) {
+    const auto up = [](float x) { return x + 0.25f * (1.0f - x); };
+    return {up(c.x), up(c.y), up(c.z), c.w};
 }
 
-std::string formatOf(const Field& field) {
-    std::string format = isWhole(field) ? "%.0f" : "%.4g";
-    if (!field.unit.empty() && field.unit.size() <= 8)
-        format += " " + std::string(field.unit);
-    return format;
-}
-
-std::string number(double value) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.4g", value);
-    return digits;
-}
-
-std::string valueText(const Field& field, double value) {
-    if (!field.choices.empty())
-        return std::string(field.choices[std::size_t(value)]);
-    return number(value) + (field.unit.empty() ? "" : " " + std::string(field.unit));
-}
-
-std::string helpOf(const Field& field) {
-    std::string help{field.label};
-    help += "\n" + std::string(field.meaning);
-    if (field.choices.empty())
-        help += "\nRange " + number(field.min) + " to " + number(field.max) +
-                (field.unit.empty() ? "" : " " + std::string(field.unit)) + ". Ctrl-click to type.";
-    help += "\nDefault " + valueText(field, fieldValue(Settings{}, field)) + " (" +
-            std::string(field.source) + ").";
-    help += "\nOn the command line: --set " + std::string(field.key) + "=";
-    return help;
+bool coloredButton(const char* label, float width, ImVec4 ground, ImVec4 hovered, ImVec4 words) {
+    ImGui::PushStyleColor(ImGuiCol_Button, ground);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, hovered);
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, hovered);
+    ImGui::PushStyleColor(ImGuiCol_Text, words);
+    const bool pressed = ImGui::Button(label, {width, 0.0f});
+    ImGui::PopStyleColor(4);
+    return pressed;
 }
 
 } // namespace
+
+void focusRing() {
+    if (!ImGui::IsItemFocused() || !ImGui::GetIO().NavVisible)
+        return;
+    ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    low = {low.x - 1.0f, low.y - 1.0f};
+    high = {high.x + 1.0f, high.y + 1.0f};
+    ImGui::GetWindowDrawList()->AddRect(low, high, packed(color::kAccent),
+                                        ImGui::GetStyle().FrameRounding, 0, 1.5f);
+}
+
+ImVec2 middleBeside(float panelEnd, float width) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float left = screen.x - panelEnd >= width ? panelEnd : 0.0f;
+    return {0.5f * (left + screen.x), 0.5f * screen.y};
+}
+
+float shareOf(int count, float gap) {
+    return (ImGui::GetContentRegionAvail().x - gap * float(count - 1)) / float(count);
+}
 
 bool resetButton(const char* id) {
     const float size = ImGui::GetFrameHeight();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool pressed = ImGui::InvisibleButton(id, {size * 0.8f, size});
+    focusRing();
     drawResetIcon({at.x + size * 0.42f, at.y + size * 0.5f}, size * 0.23f,
                   packed(ImGui::IsItemHovered() ? color::kAccent : color::kDim));
     return pressed;
 }
 
-bool section(const Fonts& fonts, const char* title, bool openAtFirst) {
+bool section(const Fonts& fonts, const char* title, bool openAtFirst, std::string_view note,
+             ImVec4 noteColor) {
     ImGuiStorage* const storage = ImGui::GetStateStorage();
     const ImGuiID id = ImGui::GetID(title);
     bool open = storage->GetBool(id, openAtFirst);
@@ -100,10 +93,16 @@ bool section(const Fonts& fonts, const char* title, bool openAtFirst) {
         storage->SetBool(id, open);
     }
     ImGui::PopID();
+    focusRing();
     const bool hovered = ImGui::IsItemHovered();
     const ImU32 tint = packed(hovered ? color::kAccent : open ? color::kText : color::kDim);
-    draw->AddText(fonts.strong, em(), {at.x, at.y + 0.5f * (height - em()) + 0.1f * em()}, tint,
-                  title);
+    const float y = at.y + 0.5f * (height - em()) + 0.1f * em();
+    draw->AddText(fonts.strong, em(), {at.x, y}, tint, title);
+    if (!note.empty()) {
+        const float x = fonts.strong->CalcTextSizeA(em(), 1e9f, 0.0f, title).x + 0.7f * em();
+        const std::string words = clipped(note, width - x - 2.0f * em());
+        draw->AddText({at.x + x, y}, packed(noteColor), words.c_str());
+    }
 
     const float s = 0.26f * em();
     const ImVec2 c{at.x + width - 2.0f * s, at.y + 0.55f * height};
@@ -119,15 +118,24 @@ bool section(const Fonts& fonts, const char* title, bool openAtFirst) {
     return open;
 }
 
+void groupTitle(const Fonts& fonts, const char* title) {
+    ImGui::PushFont(fonts.small);
+    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
+    ImGui::TextUnformatted(title);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
 bool switchButton(const char* id, bool on) {
     const float height = ImGui::GetFrameHeight();
     const float track = 0.62f * height, width = 1.9f * track;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool turned = ImGui::InvisibleButton(id, {width, height});
+    focusRing();
     const bool hovered = ImGui::IsItemHovered();
     const ImVec2 low{at.x, at.y + 0.5f * (height - track)};
     ImDrawList* const draw = ImGui::GetWindowDrawList();
-    const ImVec4 ground = on ? (hovered ? color::kAccent : color::rgb(0xcf8a48))
+    const ImVec4 ground = on ? (hovered ? color::kAccent : color::kLit)
                              : (hovered ? color::kFrameActive : color::kFrameHovered);
     draw->AddRectFilled(low, {low.x + width, low.y + track}, packed(ground), 0.5f * track);
     const float knob = 0.5f * track;
@@ -136,13 +144,32 @@ bool switchButton(const char* id, bool on) {
     return turned;
 }
 
-bool litButton(const char* label, bool lit, float width) {
-    ImGui::PushStyleColor(ImGuiCol_Button, lit ? color::rgb(0xcf8a48) : color::kFrame);
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, lit ? color::kAccent : color::kFrameHovered);
-    ImGui::PushStyleColor(ImGuiCol_ButtonActive, lit ? color::kAccent : color::kFrameActive);
-    ImGui::PushStyleColor(ImGuiCol_Text, lit ? color::kOnAccent : color::kText);
-    const bool pressed = ImGui::Button(label, {width, 0.0f});
-    ImGui::PopStyleColor(4);
+bool litButton(const char* label, bool lit, float width, ImVec4 tint) {
+    return coloredButton(label, width, lit ? tint : color::kFrame,
+                         lit ? brighter(tint) : color::kFrameHovered,
+                         lit ? color::kOnAccent : color::kText);
+}
+
+bool quietButton(const char* label, bool lit, float width) {
+    return coloredButton(label, width, lit ? color::kFill : color::kFrame,
+                         lit ? color::rgb(0x654d33) : color::kFrameHovered,
+                         lit ? color::kOnFill : color::kText);
+}
+
+std::optional<int> segments(const char* id, std::span<const char* const> names, int lit) {
+    const float gap = 0.25f * em();
+    const float width = shareOf(int(names.size()), gap);
+    std::optional<int> pressed;
+    ImGui::PushID(id);
+    ImGui::BeginGroup();
+    for (int i = 0; i < int(names.size()); ++i) {
+        if (i > 0)
+            ImGui::SameLine(0.0f, gap);
+        if (quietButton(names[std::size_t(i)], i == lit, width))
+            pressed = i;
+    }
+    ImGui::EndGroup();
+    ImGui::PopID();
     return pressed;
 }
 
@@ -160,7 +187,7 @@ void keyCap(std::string_view keys) {
 }
 
 void tooltip(const std::string& words) {
-    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    if (ImGui::IsItemActive() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         return;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * em(), 0.6f * em()});
     ImGui::BeginTooltip();
@@ -172,15 +199,9 @@ void tooltip(const std::string& words) {
 }
 
 bool clippedText(std::string_view words, float width) {
-    if (widthOf(words) <= width) {
-        text(words);
-        return false;
-    }
-    std::string_view kept = words;
-    while (!kept.empty() && widthOf(kept) + widthOf("...") > width)
-        kept.remove_suffix(1);
-    text(std::string(kept) + "...");
-    return true;
+    const std::string shown = clipped(words, width);
+    text(shown);
+    return shown != words;
 }
 
 void dimText(std::string_view words) {
@@ -206,80 +227,6 @@ void rowLabel(std::string_view label) {
     clippedText(label, column - 0.4f * em());
     ImGui::SameLine(begin + column);
     ImGui::SetNextItemWidth(-1.0f);
-}
-
-bool slider(const char* id, double& value, SliderRange range, const char* format) {
-    const auto place = [range](double x) {
-        const double t = range.logarithmic
-                             ? std::log(x / range.min) / std::log(range.max / range.min)
-                             : (x - range.min) / (range.max - range.min);
-        return float(std::clamp(t, 0.0, 1.0));
-    };
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-    const float rounding = ImGui::GetStyle().FrameRounding;
-    ImDrawList* const draw = ImGui::GetWindowDrawList();
-    draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(color::kFrame), rounding);
-    const float zero = range.logarithmic || range.min >= 0.0 ? 0.0f : place(0.0);
-    const float low = at.x + size.x * std::min(zero, place(value));
-    const float high = at.x + size.x * std::max(zero, place(value));
-    draw->PushClipRect({low, at.y}, {high, at.y + size.y}, true); // so that the corners stay round
-    draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(color::kFill), rounding);
-    draw->PopClipRect();
-    const float mark = std::clamp(at.x + size.x * place(value), at.x + 2.0f, at.x + size.x - 2.0f);
-    const bool underNumber = std::abs(mark - (at.x + 0.5f * size.x)) < 1.9f * em();
-    const float top = at.y + (underNumber ? 0.8f * size.y : 2.0f);
-    draw->AddRectFilled({mark - 1.0f, top}, {mark + 1.0f, at.y + size.y - 2.0f},
-                        packed(color::kAccent));
-
-    const ImVec4 none{0, 0, 0, 0};
-    ImGui::PushStyleColor(ImGuiCol_FrameBg, none);
-    ImGui::PushStyleColor(ImGuiCol_FrameBgHovered, color::rgb(0xffffff, 0.05f));
-    ImGui::PushStyleColor(ImGuiCol_FrameBgActive, color::rgb(0xffffff, 0.09f));
-    ImGui::PushStyleColor(ImGuiCol_SliderGrab, none);
-    ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, none);
-    const bool moved = ImGui::SliderScalar(
-        id, ImGuiDataType_Double, &value, &range.min, &range.max, format,
-        ImGuiSliderFlags_AlwaysClamp | (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
-    ImGui::PopStyleColor(5);
-    return moved;
-}
-
-void fieldRow(Settings& settings, const Field& field) {
-    ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
-    // The heading of the group says what a label repeats in brackets.
-    std::string_view label = field.label;
-    if (const auto bracket = label.find(" ("); bracket != label.npos)
-        label = label.substr(0, bracket);
-    const float reset = 0.8f * ImGui::GetFrameHeight();
-    const bool changed = !isDefault(settings, field);
-    rowLabel(label);
-    tooltip(helpOf(field));
-
-    const double value = fieldValue(settings, field);
-    ImGui::SetNextItemWidth(-reset - 0.3f * em());
-    if (!field.choices.empty()) {
-        const std::string_view now = field.choices[std::size_t(value)];
-        if (ImGui::BeginCombo("##choice", std::string(now).c_str())) {
-            for (std::size_t i = 0; i < field.choices.size(); ++i)
-                if (ImGui::Selectable(std::string(field.choices[i]).c_str(), double(i) == value))
-                    setFieldValue(settings, field, double(i));
-            ImGui::EndCombo();
-        }
-    } else {
-        double moved = value;
-        if (slider("##value", moved, {field.min, field.max, field.logarithmic},
-                   formatOf(field).c_str()))
-            setFieldValue(settings, field, moved);
-    }
-    tooltip(helpOf(field));
-    if (changed) {
-        ImGui::SameLine(0.0f, 0.3f * em());
-        if (resetButton("reset"))
-            resetField(settings, field);
-        tooltip("Back to " + valueText(field, fieldValue(Settings{}, field)));
-    }
-    ImGui::PopID();
 }
 
 } // namespace afterglow

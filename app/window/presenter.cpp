@@ -12,25 +12,31 @@ constexpr float kGround[] = {0.043f, 0.047f, 0.055f, 1.0f}; // encoded as it is 
 
 Presenter::Presenter() : source_(GlObject<FramebufferKind>::create("picture to window")) {}
 
-void Presenter::draw(const GpuTexture* picture, const Rect& where, glm::ivec2 framebuffer,
-                     bool smooth) {
+void Presenter::clear(glm::ivec2 framebuffer) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kWindow);
     glDrawBuffer(GL_BACK);
     glDisable(GL_FRAMEBUFFER_SRGB); // all colors are encoded already
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, framebuffer.x, framebuffer.y);
     glClearBufferfv(GL_COLOR, 0, kGround);
-    if (!picture || where.empty())
-        return;
+}
 
-    glNamedFramebufferTexture(source_.id(), GL_COLOR_ATTACHMENT0, picture->id(), 0);
-    const glm::ivec2 size = picture->size();
+void Presenter::draw(const GpuTexture& picture, const Rect& where, const Rect& shown,
+                     glm::ivec2 framebuffer, bool smooth) {
+    if (where.empty() || shown.empty())
+        return;
+    glNamedFramebufferTexture(source_.id(), GL_COLOR_ATTACHMENT0, picture.id(), 0);
+    const glm::ivec2 size = picture.size();
     // Row 0 is the top of the picture and the bottom of the window.
     const int top = framebuffer.y - where.min.y;
     const int bottom = top - where.size.y;
+    // A blit heeds the scissor: a part of the picture stands where it would stand in the whole.
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(shown.min.x, framebuffer.y - shown.min.y - shown.size.y, shown.size.x, shown.size.y);
     glBlitNamedFramebuffer(source_.id(), kWindow, 0, 0, size.x, size.y, where.min.x, top,
                            where.min.x + where.size.x, bottom, GL_COLOR_BUFFER_BIT,
                            smooth && size != where.size ? GL_LINEAR : GL_NEAREST);
+    glDisable(GL_SCISSOR_TEST);
     // The texture may be gone before the next frame.
     glNamedFramebufferTexture(source_.id(), GL_COLOR_ATTACHMENT0, 0, 0);
 }

@@ -12,9 +12,12 @@ class Presenter {
 public:
     Presenter();
 
-    /// Fills the back buffer of that size with a dark ground and scales the picture (RGBA8,
-    /// sRGB-encoded, row 0 on top) into `where`.
-    void draw(const GpuTexture* picture, const Rect& where, glm::ivec2 framebuffer, bool smooth);
+    /// Fills the back buffer of that size with a dark ground.
+    void clear(glm::ivec2 framebuffer);
+    /// Scales a picture (RGBA8, sRGB-encoded, row 0 on top) into `where`; only what lies in `shown`
+    /// is drawn.
+    void draw(const GpuTexture& picture, const Rect& where, const Rect& shown,
+              glm::ivec2 framebuffer, bool smooth);
 
     /// What is in the back buffer now; opaque, row 0 on top.
     Image<glm::u8vec4> readWindow(glm::ivec2 framebuffer) const;

@@ -12,12 +12,29 @@ namespace {
 constexpr std::pair<Key, int> kNamedKeys[] = {
     {Key::Escape, GLFW_KEY_ESCAPE},
     {Key::Tab, GLFW_KEY_TAB},
+    {Key::Backspace, GLFW_KEY_BACKSPACE},
     {Key::Home, GLFW_KEY_HOME},
+    {Key::PageUp, GLFW_KEY_PAGE_UP},
+    {Key::PageDown, GLFW_KEY_PAGE_DOWN},
+    {Key::Left, GLFW_KEY_LEFT},
+    {Key::Right, GLFW_KEY_RIGHT},
+    {Key::Up, GLFW_KEY_UP},
+    {Key::Down, GLFW_KEY_DOWN},
     {Key::Shift, GLFW_KEY_LEFT_SHIFT},
     {Key::Shift, GLFW_KEY_RIGHT_SHIFT},
     {Key::Control, GLFW_KEY_LEFT_CONTROL},
     {Key::Control, GLFW_KEY_RIGHT_CONTROL},
     {Key::F1, GLFW_KEY_F1},
+    {Key::F2, GLFW_KEY_F2},
+    {Key::F3, GLFW_KEY_F3},
+    {Key::F4, GLFW_KEY_F4},
+    {Key::F5, GLFW_KEY_F5},
+    {Key::F6, GLFW_KEY_F6},
+    {Key::F7, GLFW_KEY_F7},
+    {Key::F8, GLFW_KEY_F8},
+    {Key::F9, GLFW_KEY_F9},
+    {Key::F10, GLFW_KEY_F10},
+    {Key::F11, GLFW_KEY_F11},
     {Key::F12, GLFW_KEY_F12},
 };
 
@@ -34,8 +51,8 @@ std::string lastError() {
     return description ? description : "no reason given";
 }
 
-WindowInput& inputOf(GLFWwindow* window) {
-    return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
+Window& windowOf(GLFWwindow* handle) {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
 }
 
 } // namespace
@@ -76,20 +93,36 @@ Window::Window(const Options& options) {
     double x = 0.0, y = 0.0;
     glfwGetCursorPos(window_.get(), &x, &y);
     cursor_ = {float(x), float(y)};
-    glfwSetWindowUserPointer(window_.get(), &input_);
+    seenAt_ = cursor_;
+    glfwSetWindowUserPointer(window_.get(), this);
     // Dear ImGui's back end comes later and hands on what it hears.
     glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int, int action, int modifiers) {
         if (action == GLFW_PRESS)
-            inputOf(w).strokes.push_back({.key = keyOfGlfw(code),
-                                          .control = (modifiers & GLFW_MOD_CONTROL) != 0,
-                                          .shift = (modifiers & GLFW_MOD_SHIFT) != 0});
+            windowOf(w).input_.strokes.push_back({.key = keyOfGlfw(code),
+                                                  .control = (modifiers & GLFW_MOD_CONTROL) != 0,
+                                                  .shift = (modifiers & GLFW_MOD_SHIFT) != 0});
     });
     glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int) {
         if (button == GLFW_MOUSE_BUTTON_RIGHT)
-            (action == GLFW_PRESS ? inputOf(w).rightPressed : inputOf(w).rightReleased) = true;
+            (action == GLFW_PRESS ? windowOf(w).input_.rightPressed
+                                  : windowOf(w).input_.rightReleased) = true;
+        Window& window = windowOf(w);
+        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) {
+            window.input_.leftPressed = true;
+            window.input_.leftPressedAt = window.inPixels(window.seenAt_);
+        } else if (button == GLFW_MOUSE_BUTTON_LEFT) {
+            window.input_.leftReleased = true;
+            window.input_.leftReleasedAt = window.inPixels(window.seenAt_);
+        }
+    });
+    glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double cursorX, double cursorY) {
+        windowOf(w).seenAt_ = {float(cursorX), float(cursorY)};
+    });
+    glfwSetDropCallback(window_.get(), [](GLFWwindow* w, int count, const char** paths) {
+        windowOf(w).input_.dropped.insert(windowOf(w).input_.dropped.end(), paths, paths + count);
     });
     glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double, double notches) {
-        inputOf(w).wheel += float(notches);
+        windowOf(w).input_.wheel += float(notches);
     });
 }
 
@@ -143,6 +176,35 @@ float Window::contentScale() const {
     float x = 1.0f, y = 1.0f;
     glfwGetWindowContentScale(window_.get(), &x, &y);
     return x > 0.0f ? x : 1.0f;
+}
+
+glm::ivec2 Window::size() const {
+    glm::ivec2 size{0};
+    glfwGetWindowSize(window_.get(), &size.x, &size.y);
+    return size;
+}
+
+glm::vec2 Window::inPixels(glm::vec2 screen) const {
+    return screen * glm::vec2(framebufferSize()) / glm::vec2(glm::max(size(), glm::ivec2(1)));
+}
+
+glm::vec2 Window::cursor() const {
+    double x = 0.0, y = 0.0;
+    glfwGetCursorPos(window_.get(), &x, &y);
+    return inPixels({float(x), float(y)});
+}
+
+void Window::waitForScreen(bool waits) {
+    glfwSwapInterval(waits ? 1 : 0);
+}
+
+std::string Window::clipboard() const {
+    const char* const text = glfwGetClipboardString(window_.get());
+    return text ? text : "";
+}
+
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(window_.get(), text.c_str());
 }
 
 void Window::setTitle(const std::string& title) {

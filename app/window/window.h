@@ -19,6 +19,10 @@ struct WindowInput {
     glm::vec2 cursorMoved{0.0f};    ///< screen coordinates, y down
     float wheel = 0.0f;             ///< notches, away from the hand is positive
     bool rightPressed = false, rightReleased = false;
+    bool leftPressed = false, leftReleased = false;
+    // Where that was, in framebuffer pixels: by now the cursor may be elsewhere.
+    glm::vec2 leftPressedAt{0.0f}, leftReleasedAt{0.0f};
+    std::vector<std::string> dropped; ///< paths of files that were let fall on the window
 };
 
 /// An OpenGL context that can be seen. One at a time, on the main thread.
@@ -47,7 +51,12 @@ public:
     bool isMinimized() const;
     glm::ivec2 framebufferSize() const; ///< pixels; 0 while minimized on some systems
     float contentScale() const;         ///< of the monitor: 2 where letters need twice the pixels
+    glm::ivec2 size() const;            ///< screen coordinates
+    glm::vec2 cursor() const;           ///< framebuffer pixels
     void setTitle(const std::string& title);
+    void waitForScreen(bool waits); ///< whether swap() waits until the screen has shown a frame
+    std::string clipboard() const;  ///< empty if there is no text in it
+    void setClipboard(const std::string& text);
     /// Hides the cursor and lets it move without end.
     void captureCursor(bool captured);
 
@@ -65,11 +74,13 @@ private:
     };
 
     WindowInput takeInput();
+    glm::vec2 inPixels(glm::vec2 screen) const;
 
     Library library_;
     std::unique_ptr<GLFWwindow, Destroy> window_;
     WindowInput input_;
     glm::vec2 cursor_{0.0f};
+    glm::vec2 seenAt_{0.0f}; ///< the cursor, by the last event that told of it
 };
 
 /// A window that is never shown, as a context for work without one.

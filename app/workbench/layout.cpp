@@ -1,5 +1,6 @@
 #include "app/workbench/layout.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace afterglow {
@@ -32,12 +33,25 @@ Rect fitAspect(Rect area, glm::ivec2 image) {
     return {area.min + (area.size - fitted) / 2, fitted};
 }
 
-Layout layoutOf(glm::ivec2 framebuffer, int panelWidth, bool showPanel) {
+Layout layoutOf(glm::ivec2 framebuffer, const LayoutWishes& wishes) {
     const glm::ivec2 size = glm::max(framebuffer, glm::ivec2(0));
-    const int leastPicture = panelWidth / 2;
-    const int panel = showPanel && size.x >= panelWidth + leastPicture ? panelWidth : 0;
-    return {.panel = {{0, 0}, {panel, panel ? size.y : 0}},
-            .view = {{panel, 0}, {size.x - panel, size.y}}};
+    // A picture half as wide as the panel, and as high as a third of the curves and the strip.
+    const int leastWidth = std::max(wishes.panel / 2, 1), leastHeight = 96;
+    const int panel = size.x >= wishes.panel + leastWidth ? wishes.panel : 0;
+    const int side = size.x >= wishes.panel + wishes.side + 2 * leastWidth ? wishes.side : 0;
+    const int strip = size.y >= wishes.strip + leastHeight ? wishes.strip : 0;
+    const int curves = size.y >= wishes.strip + wishes.curves + 2 * leastHeight ? wishes.curves : 0;
+
+    const int width = size.x - panel - side;
+    const int below = size.y - strip - curves;
+    const auto shown = [](glm::ivec2 min, glm::ivec2 extent) {
+        return Rect{min, extent.x > 0 && extent.y > 0 ? extent : glm::ivec2(0)};
+    };
+    return {.panel = shown({0, 0}, {panel, size.y}),
+            .side = shown({size.x - side, 0}, {side, size.y}),
+            .curves = shown({panel, below}, {width, curves}),
+            .strip = shown({panel, below + curves}, {width, strip}),
+            .view = {{panel, 0}, {width, below}}};
 }
 
 bool Resolution::operator==(const Resolution& other) const {

@@ -19,13 +19,20 @@ struct Rect {
 /// pixel along each edge. Empty if either is.
 Rect fitAspect(Rect area, glm::ivec2 image);
 
-/// Where things are in a window. The panel leaves when the window is too narrow for it and a
-/// picture.
-struct Layout {
-    Rect panel; ///< empty: not shown
-    Rect view;  ///< what is left for the picture
+/// How much room things want, in pixels; 0: they are not shown.
+struct LayoutWishes {
+    int panel = 0;  ///< width, on the left
+    int side = 0;   ///< width, on the right: inspector, passes
+    int curves = 0; ///< height, below the picture
+    int strip = 0;  ///< height, below all
 };
-Layout layoutOf(glm::ivec2 framebuffer, int panelWidth, bool showPanel);
+/// Where things are in a window; what is not shown is empty. What would leave too little room for
+/// the picture is not shown: first the side, then the curves, the strip and the panel.
+struct Layout {
+    Rect panel, side, curves, strip;
+    Rect view; ///< what is left for the pictures
+};
+Layout layoutOf(glm::ivec2 framebuffer, const LayoutWishes& wishes);
 
 /// How many pixels are rendered.
 struct Resolution {

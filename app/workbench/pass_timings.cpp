@@ -9,28 +9,42 @@ namespace {
 constexpr double kNewest = 0.1;       // weight of the newest frame in an average
 constexpr std::size_t kMedianOf = 15; // frames
 
+void push(std::vector<float>& ring, double milliseconds) {
+    if (ring.size() == PassTimings::kFrames)
+        ring.erase(ring.begin());
+    ring.push_back(float(milliseconds));
+}
+
 } // namespace
 
 void PassTimings::addPasses(std::span<const Row> passes) {
     std::vector<Row> next(passes.begin(), passes.end());
     std::vector<int> seen(next.size(), 1);
+    std::vector<std::vector<float>> rings(next.size());
     for (std::size_t i = 0; i < next.size(); ++i) {
         const auto before = std::ranges::find(passes_, next[i].name, &Row::name);
-        if (before == passes_.end())
+        const double newest = next[i].milliseconds;
+        if (before == passes_.end()) {
+            push(rings[i], newest);
             continue;
-        seen[i] = seen_[std::size_t(before - passes_.begin())] + 1;
+        }
+        const auto place = std::size_t(before - passes_.begin());
+        seen[i] = seen_[place] + 1;
+        // The first time may include compiling a shader.
+        if (seen[i] > 2)
+            rings[i] = std::move(rings_[place]);
+        push(rings[i], newest);
         const double weight = std::max(kNewest, 1.0 / double(seen[i] - 1));
         next[i].milliseconds =
             before->milliseconds + weight * (next[i].milliseconds - before->milliseconds);
     }
     passes_ = std::move(next);
     seen_ = std::move(seen);
+    rings_ = std::move(rings);
 }
 
 void PassTimings::addFrame(double milliseconds) {
-    if (ring_.size() == kFrames)
-        ring_.erase(ring_.begin());
-    ring_.push_back(float(milliseconds));
+    push(ring_, milliseconds);
 }
 
 double PassTimings::frame() const {

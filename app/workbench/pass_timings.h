@@ -22,13 +22,16 @@ public:
     void addFrame(double milliseconds);
 
     const std::vector<Row>& passes() const { return passes_; }
+    /// Milliseconds of passes()[row] in the last kFrames frames, oldest first; not smoothed.
+    const std::vector<float>& history(std::size_t row) const { return rings_.at(row); }
     double passTotal() const;
     double frame() const; ///< median of the last fifteen; 0 before the first
     const std::vector<float>& frames() const { return ring_; } ///< the last kFrames, oldest first
 
 private:
     std::vector<Row> passes_;
-    std::vector<int> seen_; ///< frames in a row that each of the passes was in
+    std::vector<int> seen_;                 ///< frames in a row that each of the passes was in
+    std::vector<std::vector<float>> rings_; ///< by pass
     std::vector<float> ring_;
 };
 

@@ -1,6 +1,7 @@
 #include "app/workbench/view_state.h"
 
 #include "renderer/base/error.h"
+#include "renderer/pipeline/aov.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,70 +11,136 @@ namespace afterglow {
 namespace {
 
 constexpr double kNoticeSeconds = 5.0;
-constexpr double kLongestStep = 0.1; // seconds; a stall must not make the scene jump
+constexpr std::string_view kSigned = "radiance";
+
+struct OracleRow {
+    std::string_view name, meaning;
+    ImageDisplay display;
+};
+const std::array<OracleRow, kOracleImages> kOracleRows{{
+    {"error",
+     "luminance of the picture minus that of the reference: orange is too bright, blue too dark",
+     {"error", gpu::kMapSigned, -0.2f, 0.2f, kSigned}},
+    {"reference",
+     "the converged picture of this frame, without emission",
+     {"reference", gpu::kMapRadiance, 0.0f, 1.0f, kSigned}},
+    {"ideal lambda",
+     "the share of the light that truly changed in each stratum since the frame before",
+     {"ideal lambda", gpu::kMapScalar, 0.0f, 1.0f, ""}},
+    {"lambda error",
+     "lambda minus the ideal one: orange are false alarms, blue is change that was missed",
+     {"lambda error", gpu::kMapSigned, -1.0f, 1.0f, ""}},
+    {"ideal alpha",
+     "the weight of the newest sample that leaves the least expected error",
+     {"ideal alpha", gpu::kMapScalar, 0.0f, 1.0f, ""}},
+    {"alpha error",
+     "alpha minus the ideal one: orange is needless noise, blue is lag",
+     {"alpha error", gpu::kMapSigned, -1.0f, 1.0f, ""}},
+}};
 
 int wrapped(int index, int count) {
     return ((index % count) + count) % count;
 }
 
-const Field& fieldByKey(std::string_view key) {
-    const auto field = std::ranges::find(fields(), key, &Field::key);
-    if (field == fields().end())
-        throw std::logic_error("no field with the key " + std::string(key));
-    return *field;
+// What each light emits: the color of its first instance's material.
+std::vector<glm::vec3> colorsOf(const Scene& scene) {
+    std::vector<glm::vec3> colors;
+    for (const Light& light : scene.lights) {
+        glm::vec3 color{1.0f};
+        if (!light.instances.empty())
+            color = scene.materials[scene.instances[light.instances.front()].material].emission;
+        colors.push_back(color);
+    }
+    return colors;
 }
 
-std::string onOff(bool on) {
-    return on ? "on" : "off";
+std::size_t cameraNamed(const ViewState& state, std::string_view name) {
+    if (name.empty())
+        return 0;
+    const auto found = std::ranges::find(state.cameraNames, name);
+    if (found != state.cameraNames.end())
+        return std::size_t(found - state.cameraNames.begin());
+    std::string message = "no camera named '" + std::string(name) + "' in the scene; known:";
+    for (const std::string& known : state.cameraNames)
+        message += " " + known;
+    throw UsageError(message);
+}
+
+Camera cameraOf(const CameraBookmark& place, const Camera& like) {
+    Camera camera = like;
+    camera.position = place.position;
+    camera.orientation = place.orientation;
+    camera.lens.verticalFov = place.verticalFov;
+    return camera;
+}
+
+// Where a camera path and cuts lead: the places remembered, or a sway around the scene's camera.
+std::vector<Camera> stations(ViewState& state) {
+    std::vector<Camera> places;
+    for (const CameraBookmark& place : bookmarks(state))
+        places.push_back(cameraOf(place, state.home));
+    if (places.size() < 2)
+        return swayAround(state.home, 0.35f * state.extent);
+    return places;
 }
 
 } // namespace
 
+std::string_view nameOf(OracleImage image) {
+    return kOracleRows[std::size_t(image)].name;
+}
+std::string_view describe(OracleImage image) {
+    return kOracleRows[std::size_t(image)].meaning;
+}
+
 ViewState startState(const Scene& scene, const Settings& settings, std::string_view camera) {
     ViewState state;
-    state.settings = settings;
+    state.panes = startPanes(settings);
+    enterScene(state, scene, camera);
+    return state;
+}
+
+void enterScene(ViewState& state, const Scene& scene, std::string_view camera) {
+    state.lightNames.clear();
+    state.cameraNames.clear();
     for (const Light& light : scene.lights)
         state.lightNames.push_back(light.name);
-    state.lights.resize(scene.lights.size());
+    state.lightColors = colorsOf(scene);
+    state.lights.assign(scene.lights.size(), LightState{});
     for (const SceneCamera& known : scene.cameras)
         state.cameraNames.push_back(known.name);
     state.extent = std::max(boundsOf(scene, poseAt(scene, 0.0)).extent(), 1e-3f);
     state.speed = defaultSpeed(state.extent);
     state.isAnimated = duration(scene) > 0.0;
     state.displays = imageDisplays(state.extent);
-
-    std::size_t index = 0;
-    if (!camera.empty()) {
-        const auto found = std::ranges::find(state.cameraNames, camera);
-        if (found == state.cameraNames.end()) {
-            std::string message =
-                "no camera named '" + std::string(camera) + "' in the scene; known:";
-            for (const std::string& name : state.cameraNames)
-                message += " " + name;
-            throw UsageError(message);
-        }
-        index = std::size_t(found - state.cameraNames.begin());
-    }
-    chooseCamera(state, scene, index);
-    return state;
+    for (std::size_t i = 0; i < kOracleImages; ++i)
+        state.oracleDisplays[i] = kOracleRows[i].display;
+    if (state.frozen)
+        toggleFreeze(state);
+    startOver(state.time);
+    state.onPath = false;
+    state.marks.clear();
+    state.hovered.reset();
+    state.inspected.reset();
+    clearProbes(state);
+    chooseCamera(state, scene, cameraNamed(state, camera));
 }
 
 void chooseFilter(ViewState& state, Filter filter) {
-    state.settings.filter = filter;
+    setFilter(state.panes, state.panes.active, filter);
 }
 
 void cycleFilter(ViewState& state, int step) {
     const auto filters = allFilters();
-    const auto now = std::ranges::find(filters, state.settings.filter) - filters.begin();
-    state.settings.filter = filters[std::size_t(wrapped(int(now) + step, int(filters.size())))];
+    const auto now = std::ranges::find(filters, state.settings().filter) - filters.begin();
+    chooseFilter(state, filters[std::size_t(wrapped(int(now) + step, int(filters.size())))]);
 }
 
 void toggleLight(ViewState& state, std::size_t slot) {
     if (slot >= state.lights.size())
         return;
-    LightState& light = state.lights[slot];
-    light.on = !light.on;
-    notify(state, "Light " + state.lightNames[slot] + " " + onOff(light.on));
+    cause(state, {SceneEvent::Kind::ToggleLight, slot});
+    notify(state, "Light " + state.lightNames[slot] + (state.lights[slot].on ? " on" : " off"));
 }
 
 void toggleKeyLight(ViewState& state) {
@@ -84,131 +151,184 @@ void toggleKeyLight(ViewState& state) {
 
 void changeExposure(ViewState& state, float stops) {
     const Field& field = fieldByKey("exposure");
-    setFieldValue(state.settings, field, fieldValue(state.settings, field) + stops);
-}
-
-void togglePause(ViewState& state) {
-    state.paused = !state.paused;
-    state.stepsLeft = 0;
-}
-
-void stepOnce(ViewState& state) {
-    state.paused = true;
-    ++state.stepsLeft;
+    setField(state.panes, field, fieldValue(state.settings(), field) + double(stops));
 }
 
 void toggleAnimation(ViewState& state) {
-    state.animate = !state.animate;
+    state.time.animate = !state.time.animate;
     if (!state.isAnimated)
         notify(state, "Nothing moves in this scene");
 }
 
 void goHome(ViewState& state) {
     state.camera = state.home;
+    state.onPath = false;
+    state.cutPending = true;
 }
 
 void chooseCamera(ViewState& state, const Scene& scene, std::size_t index) {
     state.cameraIndex = index;
-    state.home = cameraAt(scene, poseAt(scene, state.seconds), index);
+    state.home = cameraAt(scene, poseAt(scene, state.time.seconds), index);
     goHome(state);
+}
+
+void cutCamera(ViewState& state) {
+    const std::vector<Camera> places = stations(state);
+    // The one after the place where the camera is; from anywhere else, the first that it is not at.
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (sameView(places[i], state.camera))
+            next = (i + 1) % places.size();
+    if (next == 0 && bookmarks(state).size() < 2 && sameView(state.camera, state.home))
+        next = 1;
+    state.camera = places[next];
+    state.onPath = false;
+    state.cutPending = true;
+}
+
+std::vector<CameraBookmark>& bookmarks(ViewState& state) {
+    return state.preferences.bookmarks[state.sceneName];
+}
+
+void addBookmark(ViewState& state) {
+    auto& places = bookmarks(state);
+    if (places.size() >= kBookmarks)
+        return notify(state,
+                      "Nine places are remembered in this scene, which is all there is room for",
+                      true);
+    int number = int(places.size()) + 1;
+    const auto taken = [&](const std::string& name) {
+        return std::ranges::find(places, name, &CameraBookmark::name) != places.end();
+    };
+    while (taken("place " + std::to_string(number)))
+        ++number;
+    places.push_back({.name = "place " + std::to_string(number),
+                      .position = state.camera.position,
+                      .orientation = state.camera.orientation,
+                      .verticalFov = state.camera.lens.verticalFov});
+    notify(state,
+           "Remembered as " + places.back().name + ": Ctrl Shift " + std::to_string(places.size()));
+}
+
+void goToBookmark(ViewState& state, std::size_t index) {
+    const auto& places = bookmarks(state);
+    if (index >= places.size())
+        return;
+    state.camera = cameraOf(places[index], state.home);
+    state.onPath = false;
+    state.cutPending = true;
 }
 
 void cycleImage(ViewState& state, int step) {
     const int count = int(state.displays.size()) + 1; // 0 is the picture
-    int place = state.image ? int(*state.image) + 1 : 0;
+    int place = state.shown.kind == Shown::Kind::Aov ? int(state.shown.index) + 1 : 0;
     for (int tried = 0; tried < count; ++tried) {
         place = wrapped(place + step, count);
-        state.image = place == 0 ? std::nullopt : std::optional(std::size_t(place - 1));
-        if (place == 0 || shownImage(state))
+        if (place == 0)
+            return show(state, Shown::Kind::Picture);
+        show(state, Shown::Kind::Aov, std::size_t(place - 1));
+        if (shownAov(state, state.panes.active))
             return;
     }
+}
+
+void show(ViewState& state, Shown::Kind kind, std::size_t index) {
+    state.shown = {kind, index};
+}
+
+void setProbe(ViewState& state, std::size_t index, const Probe& probe, glm::ivec2 image) {
+    state.probes.at(index) = PlacedProbe{probe, image};
+    state.activeProbe = index;
+    state.showCurves = true;
+}
+
+void clearProbes(ViewState& state) {
+    state.probes = {};
+    state.activeProbe = 0;
+}
+
+void toggleFreeze(ViewState& state) {
+    state.frozen = !state.frozen;
+    if (state.frozen) {
+        state.time.paused = true;
+        state.time.stepsLeft = 0;
+        return show(state, Shown::Kind::Oracle, std::size_t(OracleImage::Error));
+    }
+    state.time.paused = false;
+    if (state.shown.kind == Shown::Kind::Oracle)
+        show(state, Shown::Kind::Picture);
+}
+
+void stopTake(ViewState& state) {
+    if (const auto last = stopPlaying(state.time))
+        follow(state, *last);
+}
+
+void toggleRepeat(ViewState& state) {
+    startRepeat(state.time, state.time.repeat.every > 0 ? 0 : state.repeatEvery);
+    notify(state, state.time.repeat.every > 0
+                      ? nameOf(state.repeated, state.lightNames) + " every " +
+                            std::to_string(state.time.repeat.every) + " frames"
+                      : "Nothing repeats");
 }
 
 void notify(ViewState& state, std::string text, bool isError) {
     state.notice = {std::move(text), isError, isError ? 2.0 * kNoticeSeconds : kNoticeSeconds};
 }
 
-void perform(ViewState& state, const Command& command) {
-    switch (command.action) {
-    case Action::NextFilter: return cycleFilter(state, 1);
-    case Action::PreviousFilter: return cycleFilter(state, -1);
-    case Action::ToggleLight: return toggleLight(state, std::size_t(command.index));
-    case Action::ToggleKeyLight: return toggleKeyLight(state);
-    case Action::TogglePause: return togglePause(state);
-    case Action::StepOnce: return stepOnce(state);
-    case Action::ToggleAnimation: return toggleAnimation(state);
-    case Action::ResetHistory: state.resetWanted = true; return;
-    case Action::GoHome: return goHome(state);
-    case Action::NextImage: return cycleImage(state, 1);
-    case Action::PreviousImage: return cycleImage(state, -1);
-    case Action::ShowPicture: state.image.reset(); return;
-    case Action::Brighter: return changeExposure(state, 0.5f);
-    case Action::Darker: return changeExposure(state, -0.5f);
-    case Action::FinerPixels: state.resolution = nextResolution(state.resolution, 1); return;
-    case Action::CoarserPixels: state.resolution = nextResolution(state.resolution, -1); return;
-    case Action::SavePicture: state.pictureWanted = true; return;
-    case Action::SaveWindow: state.windowPictureWanted = true; return;
-    case Action::TogglePanel: state.showPanel = !state.showPanel; return;
-    case Action::ToggleHelp: state.showHelp = !state.showHelp; return;
-    case Action::Dismiss: state.showHelp = false; return;
-    case Action::Quit: state.quit = true; return;
+FrameMoment liveMoment(ViewState& state) {
+    if (repeatIsDue(state.time))
+        cause(state, state.repeated);
+    if (state.onPath) {
+        state.camera = onPath(stations(state), state.pathSeconds);
+        state.pathSeconds += kFixedStep;
     }
+    FrameMoment moment{.seconds = state.time.seconds,
+                       .camera = state.camera,
+                       .lights = state.lights,
+                       .marks = std::exchange(state.marks, {}),
+                       .step = false};
+    const bool cut = std::exchange(state.cutPending, false);
+    if (!state.time.last)
+        return moment;
+    const auto changes = describeChange(state.lightNames, state.time.last->lights, state.lights);
+    const bool moved = cut && !sameView(state.time.last->camera, state.camera);
+    if (moved)
+        moment.marks.push_back("camera cut");
+    moment.step =
+        !changes.empty() && moment.marks.empty() && sameView(state.time.last->camera, state.camera);
+    moment.marks.insert(moment.marks.end(), changes.begin(), changes.end());
+    return moment;
 }
 
-bool wantsFrame(const ViewState& state) {
-    return !state.paused || state.stepsLeft > 0 || state.frame == 0;
-}
-
-void frameRendered(ViewState& state, double wallSeconds) {
-    ++state.frame;
-    state.stepsLeft = std::max(state.stepsLeft - 1, 0);
-    if (state.animate)
-        state.seconds += state.timeStep == TimeStep::Fixed
-                             ? kFixedStep
-                             : std::clamp(wallSeconds, 0.0, kLongestStep);
+void follow(ViewState& state, const FrameMoment& moment) {
+    state.camera = moment.camera;
+    for (std::size_t i = 0; i < state.lights.size(); ++i)
+        state.lights[i] = i < moment.lights.size() ? moment.lights[i] : LightState{};
+    state.onPath = false;
 }
 
 void passTime(ViewState& state, double wallSeconds) {
     state.notice.secondsLeft = std::max(state.notice.secondsLeft - wallSeconds, 0.0);
 }
 
-std::optional<std::size_t> shownImage(const ViewState& state) {
-    if (!state.image)
+std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane) {
+    if (state.shown.kind != Shown::Kind::Aov)
         return {};
-    const AovInfo& aov = aovs()[*state.image];
-    return isMadeBy(aov, state.settings.filter, state.settings.denoiser) ? state.image
-                                                                         : std::nullopt;
+    const Settings& settings = state.panes.all.at(pane).settings;
+    const AovInfo& aov = aovs()[state.shown.index];
+    return isMadeBy(aov, settings.filter, settings.denoiser) ? std::optional(state.shown.index)
+                                                             : std::nullopt;
 }
 
-double fieldValue(const Settings& settings, const Field& field) {
-    Settings copy = settings; // the table gives references to what may be changed
-    return std::visit([](auto* value) { return double(*value); }, field.ref(copy));
-}
-
-void setFieldValue(Settings& settings, const Field& field, double value) {
-    const double allowed = std::clamp(value, field.min, field.max);
-    std::visit(
-        [allowed](auto* member) {
-            using Member = std::remove_pointer_t<decltype(member)>;
-            *member = std::is_integral_v<Member> ? Member(std::lround(allowed)) : Member(allowed);
-        },
-        field.ref(settings));
-}
-
-bool isDefault(const Settings& settings, const Field& field) {
-    return fieldValue(settings, field) == fieldValue(Settings{}, field);
-}
-
-void resetField(Settings& settings, const Field& field) {
-    setFieldValue(settings, field, fieldValue(Settings{}, field));
-}
-
-std::filesystem::path freePicturePath(const std::filesystem::path& folder) {
+std::filesystem::path freePath(const std::filesystem::path& folder, std::string_view stem,
+                               std::string_view ending) {
     for (int number = 1;; ++number) {
-        char name[32];
-        std::snprintf(name, sizeof name, "afterglow-%04d.png", number);
-        if (!std::filesystem::exists(folder / name))
-            return folder / name;
+        char digits[16];
+        std::snprintf(digits, sizeof digits, "-%04d", number);
+        const auto path = folder / (std::string(stem) + digits + std::string(ending));
+        if (!std::filesystem::exists(path))
+            return path;
     }
 }
 

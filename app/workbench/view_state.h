@@ -1,13 +1,17 @@
 #pragma once
 
+#include "app/workbench/fields.h"
 #include "app/workbench/fly_camera.h"
 #include "app/workbench/frame_images.h"
 #include "app/workbench/keymap.h"
-#include "app/workbench/layout.h"
-#include "renderer/pipeline/light_state.h"
-#include "renderer/pipeline/settings.h"
+#include "app/workbench/panes.h"
+#include "app/workbench/preferences.h"
+#include "app/workbench/probe_log.h"
+#include "app/workbench/scene_event.h"
+#include "app/workbench/transport.h"
 #include "renderer/scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -16,12 +20,6 @@
 
 namespace afterglow {
 
-enum class TimeStep {
-    Fixed,    ///< 1/60 s of scene time a frame, however long the frame takes
-    WallClock ///< scene time runs like the clock
-};
-constexpr double kFixedStep = 1.0 / 60.0; ///< seconds
-
 /// What the person at the window is told for a moment.
 struct Notice {
     std::string text;
@@ -29,82 +27,156 @@ struct Notice {
     double secondsLeft = 0.0;
 };
 
+/// What the panes show.
+struct Shown {
+    enum class Kind {
+        Picture, ///< the denoised picture
+        Aov,     ///< `index` into aovs() and ViewState::displays
+        Pass,    ///< `index` of what the passes of the frame made, one after the other
+        Oracle,  ///< `index`: an OracleImage; of a frozen frame
+    };
+    Kind kind = Kind::Picture;
+    std::size_t index = 0;
+
+    bool operator==(const Shown&) const = default;
+};
+
+/// What can be said of a frozen frame once its reference has converged.
+enum class OracleImage {
+    Error,       ///< luminance of the picture minus that of the reference
+    Reference,   ///< the converged picture
+    Lambda,      ///< what lambda would be if the truth were known
+    LambdaError, ///< lambda minus that
+    Alpha,       ///< what alpha would be
+    AlphaError,  ///< alpha minus that: orange is needless noise, blue is lag
+};
+inline constexpr std::size_t kOracleImages = 6;
+std::string_view nameOf(OracleImage image); ///< "error", "reference", "ideal lambda", ...
+std::string_view describe(OracleImage image);
+
+/// A probe, as it was set on a picture of that size.
+struct PlacedProbe {
+    Probe probe;
+    glm::ivec2 image{1};
+    bool operator==(const PlacedProbe&) const = default;
+};
+
+/// Asked for by keys and widgets; done and cleared by the program.
+struct Requests {
+    bool fitRange = false;
+    bool picture = false, window = false, imageFiles = false; ///< to be saved
+    bool record = false;                                      ///< frames: begin, or end
+    bool copyCurves = false, saveCurves = false;              ///< of the probes, as CSV
+    bool copyPreset = false, pastePreset = false;
+    std::string savePreset; ///< a name; empty: none
+    bool saveTake = false;  ///< as an experiment
+    bool reloadShaders = false;
+    bool probeAtMouse = false; ///< the active probe, on ViewState::hovered
+    int passStep = 0;          ///< so many passes of a frame on, or back; one a round
+    std::string open;          ///< a scene or an experiment, by name or path; empty: none
+    std::optional<std::size_t> tourStop;
+};
+
 /// All that a person can change, as plain values: no window, no OpenGL. Every widget and every key
 /// does what one of the functions below does.
 struct ViewState {
-    Settings settings;
+    Panes panes;
+    Transport time;
 
+    std::string sceneName;               ///< as it was asked for: a name or a path
     std::vector<std::string> lightNames; ///< by slot
+    std::vector<glm::vec3> lightColors;  ///< by slot: what they emit, linear
     std::vector<LightState> lights;      ///< by slot
+    bool isAnimated = false;             ///< whether anything in the scene can move
+    float extent = 1.0f;                 ///< of the scene, metres
 
     Camera camera;
     Camera home; ///< where goHome() leads
     std::vector<std::string> cameraNames;
     std::size_t cameraIndex = 0; ///< whose pose `home` was
-    float extent = 1.0f;         ///< of the scene, metres
     float speed = 1.0f;          ///< metres per second
+    bool onPath = false;
+    double pathSeconds = 0.0;
 
-    bool paused = false;
-    int stepsLeft = 0; ///< frames to render although paused
-    bool animate = true;
-    bool isAnimated = false; ///< whether anything in the scene can move
-    TimeStep timeStep = TimeStep::Fixed;
-    double seconds = 0.0;    ///< scene time of the next frame
-    std::uint32_t frame = 0; ///< number of the next frame; rises by one with each that is rendered
+    SceneEvent repeated;            ///< the last thing that was let happen
+    int repeatEvery = 60;           ///< frames, when it repeats
+    std::vector<std::string> marks; ///< of the next frame, beside what its lights tell
+    bool cutPending = false;        ///< the camera has jumped: marks it
+
     std::uint32_t seed = 0;
-
     Resolution resolution;
-    bool smoothScaling = true;
-    std::optional<std::size_t> image; ///< index into `displays`; empty: the picture
-    std::vector<ImageDisplay> displays;
+    Shown shown;
+    std::vector<ImageDisplay> displays;                     ///< by AOV
+    std::array<ImageDisplay, kOracleImages> oracleDisplays; ///< by OracleImage
 
-    bool showPanel = true, showHelp = false, showTimings = true;
+    std::array<std::optional<PlacedProbe>, kProbes> probes;
+    std::size_t activeProbe = 0;
+    ProbeQuantity curve = ProbeQuantity::Lit;
+
+    std::optional<PanePixel> hovered;   ///< under the mouse
+    std::optional<PanePixel> inspected; ///< pinned
+    bool frozen = false; ///< the moment is held and its reference converges; nothing is rendered
+    int oracleSamples = 1024; ///< a pixel, of the reference
+    int recordFrames = 0;     ///< after which a recording ends; 0: when it is told to
+    std::optional<std::size_t> tourStop;
+
+    Preferences preferences;
+    bool showHelp = false, showTimings = true, showInspector = false, showCurves = false,
+         showPasses = false, showStrip = true, showPresets = false;
     Notice notice;
-
-    // Asked for, and done and cleared by the frame loop.
-    bool resetWanted = false, fitRangeWanted = false;
-    bool pictureWanted = false, windowPictureWanted = false;
+    Requests wanted;
+    bool keyboardInPanel = false; ///< keys move in the panel and press its buttons
     bool quit = false;
+
+    Settings& settings() { return panes.all[panes.active].settings; }
+    const Settings& settings() const { return panes.all[panes.active].settings; }
 };
 
 /// The state in which a scene is first seen. UsageError names an unknown camera and the known ones.
 ViewState startState(const Scene& scene, const Settings& settings, std::string_view camera = {});
+/// For another scene: lights, cameras, time and probes start over; panes, panels and preferences
+/// stay.
+void enterScene(ViewState& state, const Scene& scene, std::string_view camera = {});
 
-void chooseFilter(ViewState& state, Filter filter);
+void chooseFilter(ViewState& state, Filter filter); ///< of the active pane
 void cycleFilter(ViewState& state, int step = 1);
 void toggleLight(ViewState& state, std::size_t slot); ///< nothing without such a slot
 void toggleKeyLight(ViewState& state);                ///< the light named "key", else the first
 void changeExposure(ViewState& state, float stops);   ///< stays in the field's range
-void togglePause(ViewState& state);
-void stepOnce(ViewState& state); ///< one frame, and paused after it
 void toggleAnimation(ViewState& state);
 void goHome(ViewState& state);
 void chooseCamera(ViewState& state, const Scene& scene, std::size_t index);
-void cycleImage(ViewState& state,
-                int step); ///< the picture, then those images that the filter makes
+/// To the next of the bookmarks, or of home and a view from the side if there are none.
+void cutCamera(ViewState& state);
+std::vector<CameraBookmark>& bookmarks(ViewState& state); ///< of this scene
+void addBookmark(ViewState& state);                       ///< at most kBookmarks
+void goToBookmark(ViewState& state, std::size_t index);
+/// The picture, then those images that the active filter makes.
+void cycleImage(ViewState& state, int step);
+void show(ViewState& state, Shown::Kind kind, std::size_t index = 0);
+void setProbe(ViewState& state, std::size_t index, const Probe& probe, glm::ivec2 image);
+void clearProbes(ViewState& state);
+void toggleFreeze(ViewState& state); ///< also pauses; leaves oracle images when it ends
+void stopTake(ViewState& state);     ///< its camera and lights become the person's
+void toggleRepeat(ViewState& state);
 void notify(ViewState& state, std::string text, bool isError = false);
 
 /// Does what a key means.
 void perform(ViewState& state, const Command& command);
 
-/// Whether the loop is to render a frame now. The first one always, so that there is something to
-/// see.
-bool wantsFrame(const ViewState& state);
-/// After each rendered frame: counts it and lets scene time go on.
-void frameRendered(ViewState& state, double wallSeconds);
+/// Before a frame: what the person's hands make of it, with marks of what changed since the last.
+/// What repeats happens here.
+FrameMoment liveMoment(ViewState& state);
+/// While a take plays, the lights and the camera that are seen are its own.
+void follow(ViewState& state, const FrameMoment& moment);
 /// In every round of the loop, rendered or not.
 void passTime(ViewState& state, double wallSeconds);
 
-/// The AOV that is shown, unless the filter does not make it.
-std::optional<std::size_t> shownImage(const ViewState& state);
+/// The AOV that a pane shows, unless its filter does not make it.
+std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane);
 
-// One tunable of the table fields(), as a number: the index of an enumeration, or the value.
-double fieldValue(const Settings& settings, const Field& field);
-void setFieldValue(Settings& settings, const Field& field, double value); ///< clamped to its range
-bool isDefault(const Settings& settings, const Field& field);
-void resetField(Settings& settings, const Field& field);
-
-/// "afterglow-0001.png", with the first number for which no file is there.
-std::filesystem::path freePicturePath(const std::filesystem::path& folder);
+/// "afterglow-0001.png" and so on, with the first number for which no file is there.
+std::filesystem::path freePath(const std::filesystem::path& folder, std::string_view stem,
+                               std::string_view ending);
 
 } // namespace afterglow

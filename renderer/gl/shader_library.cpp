@@ -122,10 +122,16 @@ std::string ShaderLibrary::fingerprint(std::span<const std::string_view> folders
     return hash.hex();
 }
 
-ShaderLibrary makeShaderLibrary(const GlInfo& info) {
+ShaderLibrary makeShaderLibrary(const GlInfo& info,
+                                const std::optional<std::filesystem::path>& folder) {
     Defines common;
     if (info.softwareRasterizer)
         common.emplace_back("FETCH_BY_IMAGE", "1");
+    if (folder) {
+        if (!std::filesystem::is_directory(*folder))
+            throw InputError(folder->string() + ": there is no such folder of shaders");
+        return ShaderLibrary(ShaderSource::fromDirectory(*folder), std::move(common));
+    }
 #ifdef AFTERGLOW_SHADER_DIR
     if (std::filesystem::is_directory(AFTERGLOW_SHADER_DIR))
         return ShaderLibrary(ShaderSource::fromDirectory(AFTERGLOW_SHADER_DIR), std::move(common));

@@ -4,8 +4,10 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/shader_source.h"
 
+#include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -67,9 +69,10 @@ private:
     Entries<RasterProgram> raster_;
 };
 
-/// The shaders of the source folder in a build for development that still finds it, else those of
-/// the executable. Defines FETCH_BY_IMAGE where that is the faster way to read a texture: see
-/// shaders/lib/fetch.glsl.
-ShaderLibrary makeShaderLibrary(const GlInfo& info);
+/// The shaders of a folder; without one, of the source folder in a build for development that still
+/// finds it, else those of the executable. InputError for a folder that is not there. Defines
+/// FETCH_BY_IMAGE where that is the faster way to read a texture: see shaders/lib/fetch.glsl.
+ShaderLibrary makeShaderLibrary(const GlInfo& info,
+                                const std::optional<std::filesystem::path>& folder = {});
 
 } // namespace afterglow

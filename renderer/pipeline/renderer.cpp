@@ -209,6 +209,10 @@ const GpuTexture& Renderer::filteredSignal(std::size_t state) const {
     return *signal;
 }
 
+bool Renderer::hasRun(std::size_t state) const {
+    return state < kFilterStates && impl_->signals[state] != nullptr;
+}
+
 std::size_t HistoryCheckpoint::bytes() const {
     std::size_t sum = visibility.bytes() + seeds.bytes() + guides.bytes() + raw.bytes();
     for (const auto& filter : filters)

@@ -116,6 +116,7 @@ public:
     /// The denoised (or raw, or converged) demodulated signal of the last frame. A state that has
     /// not run is std::logic_error.
     const GpuTexture& filteredSignal(std::size_t state = 0) const;
+    bool hasRun(std::size_t state) const; ///< in the last frame
     FrameStats readStats() const; ///< waits for the GPU
     GpuTimer& timer();
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "app/ui/draw.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace afterglow {
+
+/// What one probe reads in one pane.
+struct CurveLine {
+    std::size_t pane = 0, probe = 0;
+    std::vector<float> values;        ///< one a frame of the log; NaN where there is none
+    std::optional<std::size_t> event; ///< index of the frame of a change of light that is measured
+    std::optional<int> t50, t90;      ///< frames after it
+};
+
+/// The last frames of the log, the newest at the right.
+struct CurveChart {
+    const ProbeLog& log;
+    const QuantityInfo& quantity;
+    std::span<const CurveLine> lines;
+    std::size_t activeProbe = 0;
+    int frames = 240; ///< how many are shown
+};
+/// Draws it, and returns the index of the frame that the mouse is on.
+std::optional<std::size_t> drawCurves(const PanelContext& panel, const CurveChart& chart,
+                                      const UiRect& where, std::optional<ImVec2> mouse);
+
+/// A line from left to right in the style of a probe, for a legend.
+void drawLineSample(ImDrawList& draw, ImVec2 from, float length, std::size_t probe, ImU32 tint);
+
+} // namespace afterglow

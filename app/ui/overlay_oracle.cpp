@@ -1,0 +1,108 @@
+// How far the truth of a frozen frame has converged, and what it says.
+
+#include "app/ui/draw.h"
+#include "app/ui/panels.h"
+#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace afterglow {
+namespace {
+
+std::string frozenFrame(const ViewState& state) {
+    if (state.time.past.empty())
+        return "Frozen";
+    return formatted("Frozen frame %u", state.time.past.back().frame);
+}
+
+void progressBar(double progress) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = 0.4f * em();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(at, {at.x + width, at.y + height}, packed(color::kFrame), 0.5f * height);
+    const float done = width * float(std::clamp(progress, 0.0, 1.0));
+    if (done >= height)
+        draw.AddRectFilled(at, {at.x + done, at.y + height}, packed(color::kAccent), 0.5f * height);
+    ImGui::Dummy({width, height});
+}
+
+// The errors of all panes that are shown, and which of the images is looked at. Its legend says
+// what it means.
+void results(const PanelContext& panel) {
+    const ViewState& state = panel.state;
+    ImGui::SameLine(0.0f, em());
+    dimText("RMSE");
+    for (const std::size_t pane : shownPanes(state.panes)) {
+        const auto rmse = panel.bench.oracleRmse(pane);
+        if (!rmse)
+            continue;
+        ImGui::SameLine(0.0f, 0.7f * em());
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        drawLetter(*ImGui::GetWindowDrawList(), {at.x, at.y - 0.15f * em()}, pane, paneColor(pane));
+        ImGui::Dummy({letterSize(), em()});
+        ImGui::SameLine(0.0f, 0.35f * em());
+        ImGui::TextUnformatted(formatted("%.4f", *rmse).c_str());
+    }
+    ImGui::PushFont(panel.fonts.small);
+    if (state.shown.kind == Shown::Kind::Oracle && state.shown.index < kOracleImages)
+        dimText("shown: " + std::string(nameOf(OracleImage(state.shown.index))) +
+                "; Shift U: the next view of the truth");
+    else
+        dimText("Shift U: the next view of the truth");
+    ImGui::PopFont();
+}
+
+// Above the pictures if there is room, else below the labels of the panes.
+float topFor(const PanelContext& panel, const UiRect& view) {
+    float pictures = view.end().y;
+    bool notes = false;
+    for (const PanePlace& place : panel.frame.places) {
+        pictures = std::min(pictures, inUnits(panel, place.shown).min.y);
+        notes = notes || !panel.bench.legend(place.pane).note.empty();
+    }
+    const float margin = 0.6f * em(), own = (panel.bench.oracle().isDone() ? 4.2f : 3.3f) * em();
+    if (pictures >= view.min.y + own + 2.0f * margin)
+        return view.min.y + margin;
+    return pictures + 2.0f * margin + (notes ? 4.0f : 2.0f) * em();
+}
+
+} // namespace
+
+void overlayOracle(const PanelContext& panel) {
+    if (!panel.state.frozen)
+        return;
+    const UiRect view = inUnits(panel, panel.frame.layout.view);
+    if (view.size.x < 18.0f * em() || view.size.y < 10.0f * em())
+        return;
+    const float width = std::min(27.0f * em(), view.size.x - 2.0f * em());
+    ImGui::SetNextWindowPos({view.min.x + 0.5f * view.size.x, topFor(panel, view)},
+                            ImGuiCond_Always, {0.5f, 0.0f});
+    const bool isDone = panel.bench.oracle().isActive() && panel.bench.oracle().isDone();
+    ImGui::SetNextWindowSize({isDone ? 0.0f : width, 0.0f});
+    ImGui::SetNextWindowBgAlpha(0.88f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em());
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em(), 0.6f * em()});
+    ImGui::Begin("oracle", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs);
+    const OracleView& oracle = panel.bench.oracle();
+    const std::string frame = frozenFrame(panel.state);
+    if (isDone) {
+        ImGui::TextUnformatted(frame.c_str());
+        results(panel);
+    } else {
+        const int samples = panel.state.oracleSamples;
+        const double progress = oracle.isActive() ? oracle.progress() : 0.0;
+        ImGui::TextUnformatted((frame + formatted(": reference %d of %d samples",
+                                                  int(std::floor(progress * samples)), samples))
+                                   .c_str());
+        progressBar(progress);
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+} // namespace afterglow

@@ -1,0 +1,92 @@
+// From where the scene is seen.
+
+#include "app/ui/draw.h"
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+#include <cstdio>
+
+#include <imgui.h>
+
+namespace afterglow {
+namespace {
+
+void chooseSceneCamera(const PanelContext& panel) {
+    ViewState& state = panel.state;
+    if (state.cameraNames.size() < 2)
+        return;
+    rowLabel("Camera");
+    if (ImGui::BeginCombo("##camera", state.cameraNames[state.cameraIndex].c_str())) {
+        for (std::size_t i = 0; i < state.cameraNames.size(); ++i)
+            if (ImGui::Selectable(state.cameraNames[i].c_str(), i == state.cameraIndex))
+                chooseCamera(state, panel.bench.scene(), i);
+        ImGui::EndCombo();
+    }
+    tooltip("The scene's own cameras");
+}
+
+void drawCross(ImU32 tint) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const ImVec2 c{0.5f * (low.x + high.x), 0.5f * (low.y + high.y)};
+    const float s = 0.25f * em(), line = 0.11f * em();
+    ImDrawList* const draw = ImGui::GetWindowDrawList();
+    draw->AddLine({c.x - s, c.y - s}, {c.x + s, c.y + s}, tint, line);
+    draw->AddLine({c.x - s, c.y + s}, {c.x + s, c.y - s}, tint, line);
+}
+
+void places(ViewState& state) {
+    auto& remembered = bookmarks(state);
+    std::size_t forgotten = remembered.size();
+    const float cross = ImGui::GetFrameHeight(), gap = 0.3f * em();
+    for (std::size_t i = 0; i < remembered.size(); ++i) {
+        ImGui::PushID(int(i));
+        if (litButton(remembered[i].name.c_str(), false,
+                      ImGui::GetContentRegionAvail().x - cross - gap))
+            goToBookmark(state, i);
+        tooltip("Ctrl Shift " + std::to_string(i + 1) + ". Goes there at once.");
+        ImGui::SameLine(0.0f, gap);
+        if (ImGui::InvisibleButton("forget", {cross, cross}))
+            forgotten = i;
+        focusRing();
+        drawCross(packed(ImGui::IsItemHovered() ? color::kAccent : color::kDim));
+        tooltip("Forgets this place");
+        ImGui::PopID();
+    }
+    if (forgotten < remembered.size())
+        remembered.erase(remembered.begin() + std::ptrdiff_t(forgotten));
+    if (litButton("Remember this place", false, ImGui::GetContentRegionAvail().x))
+        addBookmark(state);
+    tooltip("Ctrl B. Up to nine in each scene. Camera cuts and the camera path go through them.");
+}
+
+} // namespace
+
+void panelCamera(const PanelContext& panel) {
+    ViewState& state = panel.state;
+    if (!section(panel.fonts, "Camera", false, state.onPath ? "on its path" : "", color::kAccent))
+        return;
+    chooseSceneCamera(panel);
+    rowLabel("Flying speed");
+    const double standard = defaultSpeed(state.extent);
+    double speed = state.speed;
+    if (slider("##speed", speed, {standard / 50.0, standard * 50.0, true}, "%.3g m/s"))
+        state.speed = float(speed);
+    tooltip("The wheel changes it; Shift is four times as fast. W A S D, Q and E fly.");
+    rowLabel("Path");
+    if (switchButton("path", state.onPath))
+        perform(state, {Action::ToggleCameraPath});
+    tooltip("Shift C. Three seconds from one remembered place to the next; with fewer than two it "
+            "sways.");
+    const glm::vec3 eye = state.camera.position;
+    char where[96];
+    std::snprintf(where, sizeof where, "%.2f  %.2f  %.2f m", double(eye.x), double(eye.y),
+                  double(eye.z));
+    rowLabel("Position");
+    dimText(where);
+    places(state);
+    if (litButton("Back to the scene's camera", false, ImGui::GetContentRegionAvail().x))
+        goHome(state);
+    tooltip("R or Home");
+}
+
+} // namespace afterglow

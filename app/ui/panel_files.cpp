@@ -1,0 +1,148 @@
+// What is read and written: scenes, experiments, pictures, curves.
+
+#include "app/ui/draw.h"
+#include "app/ui/panels.h"
+#include "app/ui/widgets.h"
+
+#include "app/experiment/experiment.h"
+#include "renderer/scene/procedural.h"
+
+#include <string>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+namespace afterglow {
+namespace {
+
+void knownFiles(const PanelContext& panel) {
+    ViewState& state = panel.state;
+    const auto offer = [&](const std::string& shown, const std::string& name,
+                           const std::string& help) {
+        if (ImGui::Selectable(shown.c_str(), name == state.sceneName))
+            state.wanted.open = name;
+        tooltip(help);
+    };
+    groupTitle(panel.fonts, "Scenes");
+    for (const SceneInfo& scene : proceduralScenes())
+        offer(std::string(scene.name), std::string(scene.name), std::string(scene.description));
+    groupTitle(panel.fonts, "Experiments");
+    static const auto experiments = builtInExperiments();
+    for (const ExperimentInfo& experiment : experiments)
+        offer(experiment.name, experiment.name, experiment.description);
+    if (!state.preferences.recentFiles.empty())
+        groupTitle(panel.fonts, "Opened before");
+    int number = 0;
+    for (const std::filesystem::path& file : state.preferences.recentFiles) {
+        ImGui::PushID(number++);
+        offer(file.filename().string(), file.string(), file.string());
+        ImGui::PopID();
+    }
+}
+
+void openRows(const PanelContext& panel) {
+    ViewState& state = panel.state;
+    rowLabel("Open");
+    const std::string now =
+        clipped(state.sceneName, ImGui::GetContentRegionAvail().x - 3.0f * em());
+    if (ImGui::BeginCombo("##known", now.c_str(), ImGuiComboFlags_HeightLargest)) {
+        knownFiles(panel);
+        ImGui::EndCombo();
+    }
+    tooltip("A scene, or an experiment, whose events then play. A file can also be dropped on the "
+            "window.");
+    rowLabel("From a file");
+    static std::string typed; // and not opened yet
+    const float button = 3.6f * em(), gap = 0.3f * em();
+    ImGui::SetNextItemWidth(-button - gap);
+    bool open = ImGui::InputTextWithHint("##file", "path", &typed,
+                                         ImGuiInputTextFlags_EnterReturnsTrue |
+                                             ImGuiInputTextFlags_AutoSelectAll);
+    tooltip("The path or the name of a scene (.gltf, .glb) or of an experiment (.json). Return "
+            "opens it.");
+    ImGui::SameLine(0.0f, gap);
+    ImGui::BeginDisabled(typed.empty());
+    open |= litButton("Open", false, button);
+    ImGui::EndDisabled();
+    if (open && !typed.empty())
+        state.wanted.open = typed;
+}
+
+void saveButtons(ViewState& state) {
+    struct Row {
+        const char *name, *help;
+        Action action;
+    };
+    const Row rows[] = {
+        {"Save picture", "F12 or Ctrl S. What the panes show, pixel for pixel, as PNG.",
+         Action::SavePicture},
+        {"Save window", "Shift F12. The whole window as PNG.", Action::SaveWindow},
+        {"All images", "Ctrl F12. Every image of this frame of the active pane, as numbers.",
+         Action::SaveImageFiles}};
+    const float gap = 0.3f * em();
+    const float width = shareOf(3, gap);
+    for (const Row& row : rows) {
+        if (&row != rows)
+            ImGui::SameLine(0.0f, gap);
+        if (litButton(row.name, false, width))
+            perform(state, {row.action});
+        tooltip(row.help);
+    }
+}
+
+void curveButtons(ViewState& state) {
+    const float gap = 0.3f * em();
+    rowLabel("Curves");
+    const float width = shareOf(2, gap);
+    if (litButton("Copy", false, width))
+        perform(state, {Action::CopyCurves});
+    tooltip("Ctrl C. What the probes read, as comma-separated values.");
+    ImGui::SameLine(0.0f, gap);
+    if (litButton("Save##curves", false, width))
+        perform(state, {Action::SaveCurves});
+    tooltip("Ctrl E. The same as a file.");
+}
+
+void recordRow(const PanelContext& panel) {
+    ViewState& state = panel.state;
+    const FrameRecorder& recorder = panel.bench.recorder();
+    const bool records = recorder.isRecording();
+    std::string label = "Record frames";
+    if (records) {
+        label = "Stop, " + std::to_string(recorder.framesWritten()) + " written";
+        if (const auto left = recorder.framesLeft())
+            label += ", " + std::to_string(*left) + " left";
+    }
+    label += "###record";
+    if (litButton(label.c_str(), records, ImGui::GetContentRegionAvail().x, color::kRecording))
+        perform(state, {Action::RecordFrames});
+    tooltip("F9. Writes every frame as PNG into a folder of its own, and a film of them where "
+            "there is ffmpeg.");
+    if (recorder.isEncoding()) {
+        ImGui::PushFont(panel.fonts.small);
+        dimText("ffmpeg makes a film of the frames ...");
+        ImGui::PopFont();
+    }
+}
+
+} // namespace
+
+void panelFiles(const PanelContext& panel) {
+    const FrameRecorder& recorder = panel.bench.recorder();
+    const char* const note = recorder.isRecording()  ? "recording frames"
+                             : recorder.isEncoding() ? "making a film"
+                                                     : "";
+    if (!section(panel.fonts, "Files", false, note, color::kRecording))
+        return;
+    openRows(panel);
+    saveButtons(panel.state);
+    curveButtons(panel.state);
+    recordRow(panel);
+    ImGui::PushFont(panel.fonts.small);
+    dimWrapped("What is saved goes into the folder in which the program was started; a message "
+               "tells its name.");
+    ImGui::PopFont();
+    ImGui::Dummy({0.0f, 0.5f * em()});
+}
+
+} // namespace afterglow

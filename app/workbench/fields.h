@@ -1,0 +1,25 @@
+#pragma once
+
+#include "renderer/pipeline/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace afterglow {
+
+// The tunables of the table fields(), as numbers: the index of an enumeration, or the value.
+
+/// std::logic_error for a key that is not in the table.
+const Field& fieldByKey(std::string_view key);
+double fieldValue(const Settings& settings, const Field& field);
+void setFieldValue(Settings& settings, const Field& field, double value); ///< clamped to its range
+bool isDefault(const Settings& settings, const Field& field);
+void resetField(Settings& settings, const Field& field);
+
+/// "0.2", "128", "power".
+std::string valueText(const Field& field, double value);
+
+/// Those whose values differ, in the order of the table. The filter is not among them.
+std::vector<const Field*> differingFields(const Settings& a, const Settings& b);
+
+} // namespace afterglow

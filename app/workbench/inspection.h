@@ -1,0 +1,43 @@
+#pragma once
+
+#include "renderer/pipeline/renderer.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace afterglow {
+
+/// One line of the inspector.
+struct InspectedValue {
+    std::string name;              ///< "alpha"
+    std::string value;             ///< "0.2", "0.61 0.58 0.55", four digits each
+    std::string note;              ///< meaning and unit, for a tooltip
+    std::vector<double> numbers{}; ///< those in `value`, exactly; empty where it is words alone
+};
+
+struct InspectedGroup {
+    std::string title; ///< "surface", "raw signal", "gradient sample", "history", "filter"
+    std::vector<InspectedValue> values;
+};
+
+/// All that the last frame knows of one pixel and of its stratum, in one filter. What the filter
+/// does not make is left out.
+struct Inspection {
+    glm::ivec2 pixel{0}, stratum{0};
+    std::size_t state = 0;
+    std::vector<InspectedGroup> groups;
+    std::vector<std::string> story; ///< sentences: where the sample came from, why there is none
+};
+
+/// Reads single pixels back, which waits for the GPU. `settings` are those that the state ran with.
+/// The pixel is inside the picture and the state ran in the last frame; else std::logic_error.
+Inspection inspect(const Renderer& renderer, std::size_t state, const Settings& settings,
+                   glm::ivec2 pixel);
+
+/// "another instance was seen there": gpu::kHistory... codes.
+std::string_view historyReason(int code);
+/// What a sample did: "lost the race": gpu::kFate... codes.
+std::string_view sampleFate(std::uint32_t code);
+
+} // namespace afterglow

@@ -1,0 +1,75 @@
+#include "app/workbench/instruments.h"
+
+#include <limits>
+
+namespace afterglow {
+namespace {
+
+ProbeSample sampleOf(const ProbeReading& reading, const DenoisePlan& plan) {
+    ProbeSample sample{.pixels = reading.pixels,
+                       .lit = reading.lit,
+                       .rawLit = reading.rawLit,
+                       .rawVariance = reading.rawLitVariance,
+                       .variance = reading.variance,
+                       .lambda = reading.lambda,
+                       .alpha = reading.alpha,
+                       .history = reading.history};
+    if (plan.atrousIterations == 0)
+        sample.variance = std::numeric_limits<double>::quiet_NaN();
+    if (!plan.accumulate) { // the control image is somebody else's
+        sample.lambda = sample.history = 0.0;
+        sample.alpha = 1.0;
+    }
+    return sample;
+}
+
+} // namespace
+
+ProbeFrame Instruments::read(Renderer& renderer, const ViewState& state, std::uint32_t frame,
+                             const FrameMoment& moment) {
+    ProbeFrame result{.frame = frame, .marks = {}, .panes = {}, .probes = {}, .samples = {}};
+    for (const std::string& mark : moment.marks)
+        result.marks.push_back({.text = mark, .step = moment.step, .pane = {}});
+    const auto shown = shownPanes(state.panes);
+    for (const std::size_t pane : shown)
+        result.panes[pane] = titleOf(state.panes.all[pane]);
+    FrameContext context{renderer.timer()};
+    const RenderTargets& t = renderer.targets();
+    for (std::size_t i = 0; i < kProbes; ++i) {
+        if (!state.probes[i])
+            continue;
+        const Probe probe =
+            rescaled(state.probes[i]->probe, state.probes[i]->image, renderer.size());
+        result.probes[i] = probe;
+        for (const std::size_t pane : shown) {
+            const Settings& settings = state.panes.all[pane].settings;
+            probe_.run(context,
+                       {renderer.filteredSignal(pane), t.raw.current(), t.albedo,
+                        t.guides.current(), t.filters[pane].control},
+                       probe.min, probe.size);
+            result.samples[i][pane] =
+                sampleOf(probe_.read(), makePlan(settings.filter, settings.denoiser));
+        }
+    }
+    return result;
+}
+
+ReasonCounts Instruments::countReasons(Renderer& renderer, const ViewState& state,
+                                       std::size_t pane) {
+    const RenderTargets& t = renderer.targets();
+    bool carried = false;
+    for (const std::size_t shown : shownPanes(state.panes)) {
+        const Settings& settings = state.panes.all[shown].settings;
+        carried = carried || makePlan(settings.filter, settings.denoiser).carrySamples;
+    }
+    FrameContext context{renderer.timer()};
+    reasons_.run(context,
+                 {t.filters.at(pane).control, t.guides.current(), carried ? &t.samples : nullptr});
+    ReasonCounts counts = reasons_.read();
+    const Settings& settings = state.panes.all[pane].settings;
+    if (!makePlan(settings.filter, settings.denoiser).accumulate)
+        counts.history = {};
+    return counts;
+}
+
+} // namespace afterglow

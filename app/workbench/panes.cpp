@@ -1,0 +1,246 @@
+#include "app/workbench/panes.h"
+
+#include "app/workbench/fields.h"
+
+#include "renderer/base/names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace afterglow {
+namespace {
+
+constexpr std::array<std::string_view, kPaneLayouts> kLayoutNames{"single", "wipe", "two-up",
+                                                                  "four-up", "difference"};
+
+bool showsPair(PaneLayout layout) {
+    return layout == PaneLayout::Wipe || layout == PaneLayout::TwoUp ||
+           layout == PaneLayout::Difference;
+}
+
+std::size_t wrapped(std::size_t index, int step, std::size_t count) {
+    const int n = int(count);
+    return std::size_t((((int(index) + step) % n) + n) % n);
+}
+
+// The active pane is one of those shown.
+void keepActiveShown(Panes& panes) {
+    if (!isShown(panes, panes.active))
+        panes.active = shownPanes(panes).front();
+}
+
+} // namespace
+
+std::string_view nameOf(PaneLayout layout) {
+    return kLayoutNames[std::size_t(layout)];
+}
+
+PaneLayout layoutFromName(std::string_view name) {
+    const auto found = std::ranges::find(kLayoutNames, name);
+    if (found == kLayoutNames.end())
+        throwUnknownName("layout", name, kLayoutNames);
+    return PaneLayout(found - kLayoutNames.begin());
+}
+
+Panes startPanes(const Settings& settings) {
+    Panes panes;
+    for (Pane& pane : panes.all)
+        pane.settings = settings;
+    std::size_t next = 1;
+    for (const Filter filter : {Filter::Asvgf, Filter::Svgf, Filter::Fixed, Filter::Clamp})
+        if (filter != settings.filter && next < panes.all.size())
+            panes.all[next++].settings.filter = filter;
+    return panes;
+}
+
+std::vector<std::size_t> shownPanes(const Panes& panes) {
+    if (panes.layout == PaneLayout::Single)
+        return {panes.active};
+    if (showsPair(panes.layout))
+        return {panes.pair[0], panes.pair[1]};
+    return {0, 1, 2, 3};
+}
+
+bool isShown(const Panes& panes, std::size_t pane) {
+    const auto shown = shownPanes(panes);
+    return std::ranges::find(shown, pane) != shown.end();
+}
+
+std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after) {
+    std::vector<std::size_t> changed;
+    for (std::size_t i = 0; i < before.all.size(); ++i)
+        if (!differingFields(before.all[i].settings, after.all[i].settings).empty() ||
+            before.all[i].settings.filter != after.all[i].settings.filter)
+            changed.push_back(i);
+    return changed;
+}
+
+void chooseLayout(Panes& panes, PaneLayout layout) {
+    // What was looked at alone stays in view.
+    if (showsPair(layout) && panes.layout == PaneLayout::Single && panes.active != panes.pair[0] &&
+        panes.active != panes.pair[1])
+        panes.pair[0] = panes.active;
+    panes.layout = layout;
+    keepActiveShown(panes);
+}
+
+void cycleLayout(Panes& panes, int step) {
+    chooseLayout(panes, PaneLayout(wrapped(std::size_t(panes.layout), step, kPaneLayouts)));
+}
+
+void choosePane(Panes& panes, std::size_t pane) {
+    if (pane >= panes.all.size())
+        return;
+    if (showsPair(panes.layout) && !isShown(panes, pane))
+        panes.pair[panes.active == panes.pair[1] ? 1 : 0] = pane;
+    panes.active = pane;
+}
+
+void cyclePane(Panes& panes, int step) {
+    if (panes.layout == PaneLayout::Single)
+        return choosePane(panes, wrapped(panes.active, step, panes.all.size()));
+    const auto shown = shownPanes(panes);
+    const auto place = std::size_t(std::ranges::find(shown, panes.active) - shown.begin());
+    panes.active = shown[wrapped(place, step, shown.size())];
+}
+
+void swapPair(Panes& panes) {
+    std::swap(panes.pair[0], panes.pair[1]);
+}
+
+void moveDivider(Panes& panes, float by) {
+    panes.divider = std::clamp(panes.divider + by, 0.0f, 1.0f);
+}
+
+void copyPane(Panes& panes, std::size_t from, std::size_t to) {
+    panes.all.at(to) = panes.all.at(from);
+}
+
+bool isFrameWide(const Field& field) {
+    return field.group == "lighting" || field.group == "display";
+}
+
+void setField(Panes& panes, const Field& field, double value) {
+    if (!isFrameWide(field))
+        return setFieldValue(panes.all[panes.active].settings, field, value);
+    for (Pane& pane : panes.all)
+        setFieldValue(pane.settings, field, value);
+}
+
+void setFilter(Panes& panes, std::size_t pane, Filter filter) {
+    panes.all.at(pane).settings.filter = filter;
+    panes.all.at(pane).title.clear();
+}
+
+void setPane(Panes& panes, std::size_t pane, std::string title, const Settings& settings) {
+    Pane& target = panes.all.at(pane);
+    const LightingSettings lighting = target.settings.lighting;
+    const DisplaySettings display = target.settings.display;
+    target = {std::move(title), settings};
+    target.settings.lighting = lighting;
+    target.settings.display = display;
+}
+
+std::string_view titleOf(Filter filter) {
+    switch (filter) {
+    case Filter::None: return "None";
+    case Filter::Fixed: return "Fixed \xce\xb1";
+    case Filter::Svgf: return "SVGF";
+    case Filter::Asvgf: return "A-SVGF";
+    case Filter::Clamp: return "Clamp";
+    case Filter::Percentile: return "Percentile";
+    case Filter::Confidence: return "Confidence";
+    }
+    return "";
+}
+
+std::string titleOf(const Pane& pane) {
+    return pane.title.empty() ? std::string(titleOf(pane.settings.filter)) : pane.title;
+}
+
+std::string parametersOf(const Pane& pane) {
+    if (pane.settings.filter == Filter::None)
+        return {};
+    char alpha[32];
+    std::snprintf(alpha, sizeof alpha, "\xce\xb1 %.3g",
+                  double(pane.settings.denoiser.temporal.alpha));
+    std::string text = alpha;
+    for (const Field* field : differingFields(pane.settings, Settings{}))
+        if (field->key != "alpha" && !isFrameWide(*field))
+            text += ", " + std::string(field->key) + " " +
+                    valueText(*field, fieldValue(pane.settings, *field));
+    return text;
+}
+
+std::vector<PanePlace> placesOf(const Panes& panes, const Rect& view, glm::ivec2 image) {
+    const auto whole = [&](std::size_t pane, const Rect& cell) {
+        const Rect picture = fitAspect(cell, image);
+        return PanePlace{pane, cell, picture, picture};
+    };
+    // Cells may differ by a pixel; their pictures, which are to be compared, do not.
+    const auto part = [&](std::size_t pane, glm::ivec2 place, glm::ivec2 count) {
+        const glm::ivec2 low = view.min + view.size * place / count;
+        const glm::ivec2 high = view.min + view.size * (place + 1) / count;
+        PanePlace result = whole(pane, {low, view.size / count});
+        result.cell.size = high - low;
+        return result;
+    };
+    const auto [first, second] = panes.pair;
+    switch (panes.layout) {
+    case PaneLayout::Single: return {whole(panes.active, view)};
+    case PaneLayout::Difference: return {whole(first, view)};
+    case PaneLayout::TwoUp: return {part(first, {0, 0}, {2, 1}), part(second, {1, 0}, {2, 1})};
+    case PaneLayout::FourUp: {
+        std::vector<PanePlace> places;
+        for (int i = 0; i < 4; ++i)
+            places.push_back(part(std::size_t(i), {i % 2, i / 2}, {2, 2}));
+        return places;
+    }
+    case PaneLayout::Wipe: break;
+    }
+    PanePlace left = whole(first, view), right = whole(second, view);
+    const int width = int(std::lround(panes.divider * float(left.picture.size.x)));
+    left.shown.size.x = width;
+    right.shown.min.x += width;
+    right.shown.size.x -= width;
+    return {left, right};
+}
+
+std::optional<PanePixel> pixelAt(std::span<const PanePlace> places, glm::vec2 position,
+                                 glm::ivec2 image) {
+    for (const PanePlace& place : places) {
+        const glm::vec2 low(place.shown.min), high(place.shown.min + place.shown.size);
+        if (place.shown.empty() || glm::any(glm::lessThan(position, low)) ||
+            glm::any(glm::greaterThanEqual(position, high)))
+            continue;
+        const glm::vec2 part =
+            (position - glm::vec2(place.picture.min)) / glm::vec2(place.picture.size);
+        return PanePixel{place.pane, glm::clamp(glm::ivec2(glm::floor(part * glm::vec2(image))),
+                                                glm::ivec2(0), image - 1)};
+    }
+    return {};
+}
+
+glm::vec2 positionOf(const PanePlace& place, glm::vec2 pixel, glm::ivec2 image) {
+    return glm::vec2(place.picture.min) + pixel / glm::vec2(image) * glm::vec2(place.picture.size);
+}
+
+bool isOnDivider(const Panes& panes, std::span<const PanePlace> places, glm::vec2 position,
+                 float reach) {
+    if (panes.layout != PaneLayout::Wipe || places.size() != 2)
+        return false;
+    const Rect& picture = places[0].picture;
+    const float x = float(picture.min.x) + panes.divider * float(picture.size.x);
+    return std::abs(position.x - x) <= reach && position.y >= float(picture.min.y) &&
+           position.y < float(picture.min.y + picture.size.y);
+}
+
+float dividerAt(std::span<const PanePlace> places, glm::vec2 position) {
+    if (places.empty() || places[0].picture.size.x <= 0)
+        return 0.5f;
+    const Rect& picture = places[0].picture;
+    return std::clamp((position.x - float(picture.min.x)) / float(picture.size.x), 0.0f, 1.0f);
+}
+
+} // namespace afterglow

@@ -1,0 +1,102 @@
+#pragma once
+
+#include "app/workbench/layout.h"
+#include "renderer/pipeline/settings.h"
+#include "renderer/resources/render_targets.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace afterglow {
+
+/// How filters share the view.
+enum class PaneLayout {
+    Single,     ///< the active one alone
+    Wipe,       ///< two, the same picture on both sides of a divider
+    TwoUp,      ///< two, beside each other
+    FourUp,     ///< all
+    Difference, ///< the first of the pair minus the second
+};
+inline constexpr std::size_t kPaneLayouts = 5;
+std::string_view nameOf(PaneLayout layout); ///< "single", "wipe", "two-up", "four-up", "difference"
+PaneLayout layoutFromName(std::string_view name); ///< UsageError names the nearest known
+
+/// A filter with its parameters, as one of four that can be compared. Each has its own histories:
+/// FilterRun::state is the pane's index.
+struct Pane {
+    std::string title; ///< of the preset that it was set to; empty: that of the filter
+    Settings settings; ///< lighting and display are the same in all panes
+};
+
+struct Panes {
+    std::array<Pane, kFilterStates> all;
+    PaneLayout layout = PaneLayout::Single;
+    std::size_t active = 0; ///< what keys and panels speak to; always a shown one
+    std::array<std::size_t, 2> pair{0,
+                                    1}; ///< left and right of a wipe and so on; two different ones
+    float divider = 0.5f;               ///< of a wipe: the share of the picture left of it
+    float gain = 4.0f;                  ///< of the difference
+};
+
+/// Every pane with a filter of its own: what was asked for, then SVGF, a fixed alpha and clamping.
+Panes startPanes(const Settings& settings);
+
+/// Those that run, in the order in which they are shown.
+std::vector<std::size_t> shownPanes(const Panes& panes);
+bool isShown(const Panes& panes, std::size_t pane);
+std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after);
+
+void chooseLayout(Panes& panes, PaneLayout layout);
+void cycleLayout(Panes& panes, int step);
+/// Makes it the active one. Where it is not shown it takes the place of the one that was active.
+void choosePane(Panes& panes, std::size_t pane);
+void cyclePane(Panes& panes, int step); ///< among those shown; in a single view among all
+void swapPair(Panes& panes);
+void moveDivider(Panes& panes, float by); ///< stays within [0, 1]
+void copyPane(Panes& panes, std::size_t from, std::size_t to);
+
+/// Whether a tunable belongs to the whole frame and not to one filter.
+bool isFrameWide(const Field& field);
+/// Of the active pane, or of all where it is frame-wide. Clamped to its range.
+void setField(Panes& panes, const Field& field, double value);
+void setFilter(Panes& panes, std::size_t pane, Filter filter);
+/// Filter and parameters of one pane; lighting and display stay as they are.
+void setPane(Panes& panes, std::size_t pane, std::string title, const Settings& settings);
+
+/// "A-SVGF"; for a person, where nameOf() is for files.
+std::string_view titleOf(Filter filter);
+std::string titleOf(const Pane& pane);
+/// The parameters that are not at their defaults: "alpha 0.1, history law frames"; never empty for
+/// a filter that accumulates, since alpha is always told.
+std::string parametersOf(const Pane& pane);
+
+/// Where one pane is in the view.
+struct PanePlace {
+    std::size_t pane = 0;
+    Rect cell;    ///< its part of the view
+    Rect picture; ///< where its whole picture would be
+    Rect shown;   ///< the part of `picture` that is seen
+};
+/// In framebuffer pixels. A difference has one place, that of the first of the pair.
+std::vector<PanePlace> placesOf(const Panes& panes, const Rect& view, glm::ivec2 image);
+
+/// The pixel of the rendered image under a position of the framebuffer.
+struct PanePixel {
+    std::size_t pane = 0;
+    glm::ivec2 pixel{0};
+};
+std::optional<PanePixel> pixelAt(std::span<const PanePlace> places, glm::vec2 position,
+                                 glm::ivec2 image);
+/// Where a pixel's square is in the framebuffer, in a pane's picture: its upper left corner, with
+/// fractions.
+glm::vec2 positionOf(const PanePlace& place, glm::vec2 pixel, glm::ivec2 image);
+/// Whether a position is on the divider of a wipe, within `reach` pixels.
+bool isOnDivider(const Panes& panes, std::span<const PanePlace> places, glm::vec2 position,
+                 float reach);
+/// Where the divider is to be so that it is under a position.
+float dividerAt(std::span<const PanePlace> places, glm::vec2 position);
+
+} // namespace afterglow

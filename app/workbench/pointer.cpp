@@ -1,0 +1,71 @@
+#include "app/workbench/pointer.h"
+
+#include <algorithm>
+
+namespace afterglow {
+namespace {
+
+// Where a position lies in a pane's picture, also outside of it.
+std::optional<glm::ivec2> pixelIn(std::span<const PanePlace> places, std::size_t pane,
+                                  glm::vec2 position, glm::ivec2 image) {
+    const auto place = std::ranges::find(places, pane, &PanePlace::pane);
+    if (place == places.end() || place->picture.empty())
+        return {};
+    const glm::vec2 part =
+        (position - glm::vec2(place->picture.min)) / glm::vec2(place->picture.size);
+    return glm::clamp(glm::ivec2(glm::floor(part * glm::vec2(image))), glm::ivec2(0), image - 1);
+}
+
+// The first probe that is free, or the active one.
+std::size_t nextProbe(const ViewState& state) {
+    for (std::size_t i = 0; i < kProbes; ++i)
+        if (!state.probes[i])
+            return i;
+    return state.activeProbe;
+}
+
+} // namespace
+
+void movePointer(Pointer& pointer, ViewState& state, const PointerInput& input,
+                 std::span<const PanePlace> places, glm::ivec2 image) {
+    const bool hasImage = image.x > 0 && image.y > 0;
+    const auto under = hasImage && input.onPicture ? pixelAt(places, input.position, image)
+                                                   : std::optional<PanePixel>();
+    state.hovered = under;
+
+    if (input.pressed && input.onPicture && hasImage) {
+        if (isOnDivider(state.panes, places, input.position, input.reach)) {
+            pointer.holds = Pointer::Holds::Divider;
+        } else if (under) {
+            choosePane(state.panes, under->pane);
+            pointer = {.holds = Pointer::Holds::Probe,
+                       .pane = under->pane,
+                       .corner = under->pixel,
+                       .opposite = under->pixel,
+                       .probe = input.adds ? nextProbe(state) : state.activeProbe};
+        }
+    }
+    if (pointer.holds == Pointer::Holds::Divider)
+        state.panes.divider = dividerAt(places, input.position);
+    if (pointer.holds == Pointer::Holds::Probe && hasImage)
+        pointer.opposite =
+            pixelIn(places, pointer.pane, input.position, image).value_or(pointer.opposite);
+    if (!input.released)
+        return;
+    if (const auto probe = draggedProbe(pointer, image))
+        setProbe(state, pointer.probe, *probe, image);
+    pointer.holds = Pointer::Holds::Nothing;
+}
+
+std::optional<Probe> draggedProbe(const Pointer& pointer, glm::ivec2 image) {
+    if (pointer.holds != Pointer::Holds::Probe || image.x <= 0 || image.y <= 0)
+        return {};
+    return probeBetween(pointer.corner, pointer.opposite, image);
+}
+
+void probeAtMouse(ViewState& state, glm::ivec2 image) {
+    if (state.hovered && image.x > 0 && image.y > 0)
+        setProbe(state, state.activeProbe, probeAt(state.hovered->pixel, image), image);
+}
+
+} // namespace afterglow

@@ -1,0 +1,285 @@
+#include "app/workbench/workbench_impl.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace afterglow {
+namespace {
+
+constexpr double kStatsSeconds = 0.5;        // between two readings of counters, which wait
+constexpr double kReloadSeconds = 0.5;       // between two looks at the shader files
+constexpr double kOracleMilliseconds = 30.0; // of every round in which the truth converges
+
+using Clock = std::chrono::steady_clock;
+double secondsSince(Clock::time_point before) {
+    return std::chrono::duration<double>(Clock::now() - before).count();
+}
+
+} // namespace
+
+Workbench::Impl::Impl(Workbench& bench, ShaderLibrary& library, const GlInfo& info,
+                      WorkbenchFolders places)
+    : owner(bench), state(bench.state), shaders(library), gl(info), folders(std::move(places)),
+      renderer(shaders, gl), pictures(shaders), instruments(shaders), oracle(shaders, gl),
+      presets(folders.presets) {}
+
+Workbench::Workbench(ShaderLibrary& shaders, const GlInfo& gl, Scene scene, ViewState initial,
+                     WorkbenchFolders folders)
+    : state(std::move(initial)),
+      impl_(std::make_unique<Impl>(*this, shaders, gl, std::move(folders))) {
+    impl_->renderer.setScene(std::move(scene));
+}
+
+Workbench::~Workbench() = default;
+
+bool Workbench::advance(double wallSeconds, glm::ivec2 view) {
+    Impl& self = *impl_;
+    passTime(state, wallSeconds);
+    self.sinceFrame += wallSeconds;
+    self.sinceStats += wallSeconds;
+    self.sinceReload += wallSeconds;
+    self.serveRequests();
+    self.followFreeze();
+    const bool renders = view.x > 0 && view.y > 0 && !state.frozen &&
+                         wantsFrame(state.time, self.sinceFrame) && !isFinished(state.time);
+    if (renders)
+        self.renderFrame(wallSeconds, view);
+    self.inspectPixel(renders);
+    if (const auto message = self.recorder.poll())
+        notify(state, message->text, message->isError);
+    if (std::exchange(state.wanted.reloadShaders, false) || self.sinceReload > kReloadSeconds) {
+        self.sinceReload = 0.0;
+        self.shaderErrors = self.shaders.reload().errors;
+    }
+    return renders;
+}
+
+// Everything of a frame that is settled before it is rendered.
+FrameMoment Workbench::Impl::prepareFrame(glm::ivec2 view) {
+    const glm::ivec2 size = renderSize(state.resolution, view);
+    if (size != renderer.size()) {
+        renderer.resize(size);
+        checkpoint.reset();
+        checkpointLost(state.time);
+        now.reset();
+    }
+    Transport& time = state.time;
+    if (std::exchange(time.resetWanted, false)) {
+        renderer.resetHistory();
+        now.reset();
+    }
+    if (std::exchange(time.restoreWanted, false)) {
+        if (checkpoint)
+            renderer.restore(*checkpoint);
+        else
+            renderer.resetHistory();
+    }
+    if (std::exchange(time.checkpointWanted, false))
+        checkpoint = renderer.checkpoint();
+
+    if (!time.playing)
+        return nextMoment(time, liveMoment(state));
+    FrameMoment moment = nextMoment(time, {});
+    follow(state, moment);
+    return moment;
+}
+
+void Workbench::Impl::render(const FrameMoment& moment) {
+    const bool shows = state.shown.kind == Shown::Kind::Pass;
+    const bool listens = shows || state.showPasses || capturesAll;
+    renderer.timer().setEnabled(state.showPasses);
+    renderer.setListener(listens ? &capture : nullptr);
+    if (listens) {
+        using enum PassCapture::Keep;
+        capture.begin(std::exchange(capturesAll, false) ? All : (shows ? One : Nothing),
+                      state.shown.index);
+    } else {
+        capture.clear();
+    }
+    std::vector<FilterRun> runs;
+    for (const std::size_t pane : shownPanes(state.panes))
+        runs.push_back({pane, state.panes.all[pane].settings});
+    renderer.render({.camera = moment.camera,
+                     .seconds = moment.seconds,
+                     .frame = state.time.frame,
+                     .seed = state.seed,
+                     .lights = moment.lights},
+                    runs);
+    if (listens)
+        capture.end();
+    renderer.setListener(nullptr);
+    pictures.changed();
+}
+
+bool Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
+    const FrameMoment moment = prepareFrame(view);
+    const Clock::time_point start = Clock::now();
+    render(moment);
+    if (gl.softwareRasterizer)
+        glFinish(); // on a GPU the pace of whole rounds says more
+    timings.addFrame(1000.0 * (gl.softwareRasterizer ? secondsSince(start) : sinceFrame));
+    if (state.showPasses) {
+        std::vector<PassTimings::Row> rows;
+        for (const GpuTimer::Entry& entry : renderer.timer().lastFrame())
+            rows.push_back({entry.name, entry.milliseconds});
+        timings.addPasses(rows);
+    }
+    sinceFrame = 0.0;
+    measure(moment);
+    before = std::move(now);
+    now = moment;
+    nowFrame = state.time.frame;
+    frameRendered(state.time, wallSeconds);
+    return true;
+}
+
+void Workbench::Impl::measure(const FrameMoment& moment) {
+    log.add(instruments.read(renderer, state, state.time.frame, moment));
+    reasons = {};
+    if (state.showInspector)
+        for (const std::size_t pane : shownPanes(state.panes))
+            reasons[pane] = instruments.countReasons(renderer, state, pane);
+    if (recorder.isRecording())
+        recorder.add(composedView());
+    if (sinceStats < kStatsSeconds)
+        return;
+    sinceStats = 0.0;
+    stats = renderer.readStats();
+    raysPerSecond = timings.frame() > 0.0 ? 1000.0 * double(stats.rays) / timings.frame() : 0.0;
+}
+
+void Workbench::Impl::followFreeze() {
+    if (!state.frozen) {
+        if (oracle.isActive()) {
+            oracle.end();
+            pictures.changed();
+        }
+        return;
+    }
+    if (!now) { // nothing has been rendered that could be held
+        state.frozen = false;
+        return show(state, Shown::Kind::Picture);
+    }
+    if (!oracle.isActive()) {
+        OracleView::Moment moment{.now = {.camera = now->camera,
+                                          .seconds = now->seconds,
+                                          .frame = nowFrame,
+                                          .seed = state.seed,
+                                          .lights = {}},
+                                  .lights = now->lights,
+                                  .secondsBefore = before ? before->seconds : 0.0,
+                                  .lightsBefore =
+                                      before ? before->lights : std::vector<LightState>{},
+                                  .hasBefore = before.has_value()};
+        oracle.begin(renderer, std::move(moment), state.settings(), state.oracleSamples);
+    }
+    if (oracle.advance(kOracleMilliseconds))
+        pictures.changed();
+}
+
+// To what another pass of the frame has made; past the last one, to the first of the next frame.
+void Workbench::Impl::stepPass(int step) {
+    const std::size_t count = capture.made().size();
+    const bool stands = state.shown.kind == Shown::Kind::Pass && state.time.paused && count > 0;
+    const auto next = std::int64_t(state.shown.index) + step;
+    const bool kept = stands && next >= 0 && next < std::int64_t(count) &&
+                      capture.image(std::size_t(next)) != nullptr;
+    if (kept)
+        return show(state, Shown::Kind::Pass, std::size_t(next));
+    if (stands && next < 0)
+        return;
+    capturesAll = true;
+    state.showPasses = true;
+    show(state, Shown::Kind::Pass, 0);
+    perform(state, {Action::StepOnce});
+}
+
+void Workbench::Impl::inspectPixel(bool rendered) {
+    const auto& wanted = state.inspected ? state.inspected : state.hovered;
+    if (!state.showInspector || !wanted || !now || !renderer.hasRun(wanted->pane) ||
+        glm::any(glm::greaterThanEqual(wanted->pixel, renderer.size()))) {
+        if (!state.showInspector)
+            inspection.reset();
+        return;
+    }
+    const bool same =
+        inspection && inspection->pixel == wanted->pixel && inspection->state == wanted->pane;
+    if (rendered || !same)
+        inspection =
+            inspect(renderer, wanted->pane, state.panes.all[wanted->pane].settings, wanted->pixel);
+}
+
+const GpuTexture* Workbench::picture(std::size_t pane) {
+    return impl_->now ? impl_->pictures.of(impl_->sources(), pane) : nullptr;
+}
+
+glm::ivec2 Workbench::imageSize() const {
+    return impl_->now ? impl_->renderer.size() : glm::ivec2(0);
+}
+
+PictureLegend Workbench::legend(std::size_t pane) {
+    if (!impl_->renderer.hasRun(pane))
+        return {.name = {}, .meaning = {}, .note = "It runs with the next frame.", .display = {}};
+    return impl_->pictures.legendOf(impl_->sources(), pane);
+}
+
+const Renderer& Workbench::renderer() const {
+    return impl_->renderer;
+}
+const Scene& Workbench::scene() const {
+    return impl_->renderer.scene();
+}
+const GlInfo& Workbench::gl() const {
+    return impl_->gl;
+}
+const PassTimings& Workbench::timings() const {
+    return impl_->timings;
+}
+const FrameStats& Workbench::stats() const {
+    return impl_->stats;
+}
+double Workbench::raysPerSecond() const {
+    return impl_->raysPerSecond;
+}
+const ProbeLog& Workbench::probeLog() const {
+    return impl_->log;
+}
+std::optional<ReasonCounts> Workbench::reasons(std::size_t pane) const {
+    return impl_->reasons.at(pane);
+}
+const PassCapture& Workbench::passes() const {
+    return impl_->capture;
+}
+const OracleView& Workbench::oracle() const {
+    return impl_->oracle;
+}
+std::optional<double> Workbench::oracleRmse(std::size_t pane) {
+    return impl_->oracle.rmse(pane, state.panes.all.at(pane).settings);
+}
+const std::optional<Inspection>& Workbench::inspection() const {
+    return impl_->inspection;
+}
+PresetStore& Workbench::presets() {
+    return impl_->presets;
+}
+const FrameRecorder& Workbench::recorder() const {
+    return impl_->recorder;
+}
+std::span<const std::string> Workbench::shaderErrors() const {
+    return impl_->shaderErrors;
+}
+
+std::size_t Workbench::imageBytes() const {
+    return impl_->renderer.targets().bytes() + impl_->capture.bytes() + impl_->pictures.bytes() +
+           (impl_->checkpoint ? impl_->checkpoint->bytes() : 0);
+}
+
+std::optional<std::string> Workbench::takeCopied() {
+    return std::exchange(impl_->copied, {});
+}
+
+void Workbench::resetTimer() {
+    impl_->sinceFrame = 0.0;
+}
+
+} // namespace afterglow

@@ -1,0 +1,265 @@
+// What Workbench does with files and with the clipboard.
+
+#include "app/experiment/experiment.h"
+#include "app/experiment/output.h"
+#include "app/experiment/presets.h"
+#include "app/experiment/run_plan.h"
+#include "app/workbench/probe_csv.h"
+#include "app/workbench/take_experiment.h"
+#include "app/workbench/workbench_impl.h"
+#include "renderer/base/error.h"
+#include "renderer/base/file.h"
+#include "renderer/base/log.h"
+#include "renderer/image/image_io.h"
+#include "renderer/pipeline/aov.h"
+#include "renderer/scene/load_scene.h"
+
+#include <algorithm>
+
+namespace afterglow {
+namespace {
+
+constexpr int kRecordedRate = 60; // frames per second of a film
+
+bool isFile(const std::string& nameOrPath) {
+    return nameOrPath.find('/') != std::string::npos ||
+           std::filesystem::path(nameOrPath).has_extension();
+}
+
+PaneLayout layoutFor(std::size_t variants) {
+    if (variants <= 1)
+        return PaneLayout::Single;
+    return variants == 2 ? PaneLayout::TwoUp : PaneLayout::FourUp;
+}
+
+} // namespace
+
+void Workbench::Impl::attempt(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        notify(state, error.what(), true);
+        afterglow::log(LogLevel::Error, error.what());
+    }
+}
+
+void Workbench::Impl::serveRequests() {
+    Requests& wanted = state.wanted;
+    const auto asked = [](bool& flag) { return std::exchange(flag, false); };
+    if (const std::string name = std::exchange(wanted.open, {}); !name.empty())
+        owner.open(name);
+    if (wanted.passStep != 0) {
+        const int step = wanted.passStep > 0 ? 1 : -1;
+        wanted.passStep -= step;
+        stepPass(step);
+    }
+    if (asked(wanted.fitRange))
+        fitRange();
+    if (asked(wanted.picture))
+        attempt([&] { saveImage("afterglow"); });
+    if (asked(wanted.imageFiles))
+        attempt([&] { saveImageFiles(); });
+    if (asked(wanted.record))
+        attempt([&] { recordFrames(); });
+    if (asked(wanted.copyCurves)) {
+        copied = toCsv(log);
+        notify(state, "The curves of " + std::to_string(log.frames().size()) +
+                          " frames are in the clipboard, as CSV");
+    }
+    if (asked(wanted.saveCurves))
+        attempt([&] { saveCurves(); });
+    if (asked(wanted.saveTake))
+        attempt([&] { saveTake(); });
+    if (asked(wanted.copyPreset)) {
+        copied = presetText(presetOf("copied", state.settings()));
+        notify(state, "The preset is in the clipboard");
+    }
+    if (const std::string name = std::exchange(wanted.savePreset, {}); !name.empty())
+        attempt([&] { savePreset(name); });
+}
+
+void Workbench::Impl::fitRange() {
+    const std::size_t pane = state.panes.active;
+    if (const auto aov = shownAov(state, pane); aov && renderer.hasRun(pane))
+        state.displays[*aov] =
+            fittedTo(readAov(renderer, aovs()[*aov], pane), state.displays[*aov]);
+}
+
+Image<glm::u8vec4> Workbench::Impl::composedView() {
+    std::array<Image<glm::u8vec4>, kFilterStates> images;
+    for (const std::size_t pane : shownPanes(state.panes))
+        if (const GpuTexture* const picture = pictures.of(sources(), pane))
+            images[pane] = picture->read<glm::u8vec4>();
+    return composed(state.panes, images);
+}
+
+void Workbench::Impl::saveImage(const std::string& stem) {
+    if (!now)
+        return;
+    const Image<glm::u8vec4> view = composedView();
+    if (view.pixels().empty())
+        return notify(state, "There is no picture before the next frame", true);
+    const auto path = freePath(folders.output, stem, ".png");
+    writePng(path, view);
+    notify(state, "Saved " + path.string());
+    afterglow::log(LogLevel::Info, "saved " + path.string());
+}
+
+// Every image that the active filter makes, as 32-bit float, and the picture.
+void Workbench::Impl::saveImageFiles() {
+    const std::size_t pane = state.panes.active;
+    if (!now || !renderer.hasRun(pane))
+        return;
+    const Settings& settings = state.settings();
+    const OutputFolder folder(freePath(folders.output, "afterglow-images", ""));
+    int count = 0;
+    for (const AovInfo& aov : aovs())
+        if (isMadeBy(aov, settings.filter, settings.denoiser)) {
+            folder.writeFloat(aov.name, "exr", readAov(renderer, aov, pane), aov.channels);
+            ++count;
+        }
+    folder.writePng("picture.png", renderer.targets().filters[pane].display.read<glm::u8vec4>());
+    notify(state, "Saved " + std::to_string(count) + " images in " + folder.path().string());
+}
+
+void Workbench::Impl::saveCurves() {
+    const auto path = freePath(folders.output, "afterglow-curves", ".csv");
+    writeFileAtomically(path, toCsv(log));
+    notify(state, "Saved " + path.string());
+}
+
+void Workbench::Impl::saveTake() {
+    const Transport& time = state.time;
+    const Take* const take =
+        time.playing ? &time.playing->take : (time.recorded ? &*time.recorded : nullptr);
+    if (!take || take->frames.empty())
+        throw UsageError("there is no take: I sets the in point, O the out point");
+    if (!experiment.empty())
+        throw UsageError("this take is of the experiment " + experiment +
+                         ", which is a file already");
+    Experiment base;
+    const auto path = freePath(folders.output, "afterglow-take", ".json");
+    base.name = path.stem().string();
+    base.description = "Recorded in the window";
+    base.scene = state.sceneName;
+    base.size = renderer.size();
+    base.seed = state.seed;
+    base.signal = Signal(state.settings().lighting.signal);
+    for (const std::size_t pane : shownPanes(state.panes)) {
+        Preset preset = presetOf("pane", state.panes.all[pane].settings);
+        preset.variant.name = std::string(1, letterOf(pane)) + "-" +
+                              std::string(nameOf(state.panes.all[pane].settings.filter));
+        base.variants.push_back(preset.variant);
+    }
+    // Filters settle before the take begins.
+    constexpr int kLeadIn = 32;
+    writeFileAtomically(path, experimentText(*take, loadScene(state.sceneName), base, kLeadIn));
+    notify(state, "Saved " + path.string() + ": afterglow experiment measures it");
+}
+
+void Workbench::Impl::savePreset(const std::string& name) {
+    Preset preset = presetOf(name, state.settings());
+    preset.title = name.substr(0, kTitleLength);
+    preset.description = "Saved from pane " + std::string(1, letterOf(state.panes.active));
+    preset.source = "own choice";
+    presets.save(preset);
+    state.panes.all[state.panes.active].title = preset.title;
+    notify(state, "Saved as " + (presets.folder() / (name + ".json")).string());
+}
+
+void Workbench::Impl::recordFrames() {
+    if (recorder.isRecording())
+        return recorder.stop();
+    if (!now || composedView().size().x == 0)
+        return;
+    const auto frames = state.recordFrames > 0 ? std::optional(state.recordFrames) : std::nullopt;
+    recorder.start(folders.output, composedView().size(), kRecordedRate, frames);
+    notify(state, "Recording: F9 ends it");
+}
+
+void Workbench::Impl::enter(Scene scene, const std::string& name) {
+    state.sceneName = name;
+    state.preferences.lastScene = name;
+    if (isFile(name))
+        rememberFile(state.preferences, name);
+    enterScene(state, scene);
+    renderer.setScene(std::move(scene));
+    oracle.end();
+    capture.clear();
+    checkpoint.reset();
+    now.reset();
+    before.reset();
+    log.clear();
+    inspection.reset();
+    experiment.clear();
+}
+
+void Workbench::Impl::openExperiment(const std::string& nameOrPath) {
+    const Experiment wanted = loadExperiment(nameOrPath);
+    RunPlan plan = planOf(wanted);
+    Take take = takeOf(wanted, plan);
+    enter(std::move(plan.scene), nameOrPath);
+    experiment = wanted.name;
+    state.sceneName = wanted.scene;
+    state.preferences.lastScene = wanted.scene;
+    if (isFile(nameOrPath))
+        rememberFile(state.preferences, nameOrPath);
+
+    const std::size_t count = std::min(wanted.variants.size(), kFilterStates);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Variant& variant = wanted.variants[i];
+        Pane& pane = state.panes.all[i];
+        const DisplaySettings display = pane.settings.display;
+        const int placement = pane.settings.lighting.gradientSamples;
+        pane = {nameOf(variant.filter) == variant.name ? std::string() : variant.name,
+                settingsOf(variant, wanted.signal)};
+        pane.settings.display = display;
+        pane.settings.lighting.gradientSamples = placement;
+    }
+    for (std::size_t i = count; i < kFilterStates; ++i)
+        state.panes.all[i].settings.lighting = state.panes.all[0].settings.lighting;
+    state.panes.active = 0;
+    state.panes.pair = {0, 1};
+    chooseLayout(state.panes, layoutFor(count));
+    state.resolution = {.followWindow = false, .scale = 1.0f, .fixed = wanted.size};
+    state.seed = wanted.seed;
+    state.time.paused = false;
+    play(state.time, std::move(take), true);
+    notify(state, "Plays the experiment " + wanted.name +
+                      (wanted.variants.size() > count ? ", its first four variants" : ""));
+}
+
+bool Workbench::isExperiment(const std::string& nameOrPath) {
+    if (nameOrPath.ends_with(".json"))
+        return true;
+    const auto known = builtInExperiments();
+    return std::ranges::find(known, nameOrPath, &ExperimentInfo::name) != known.end();
+}
+
+void Workbench::checkExperiment(const std::string& nameOrPath) {
+    planOf(loadExperiment(nameOrPath));
+}
+
+bool Workbench::playsScene() const {
+    return impl_->experiment.empty();
+}
+
+void Workbench::open(const std::string& nameOrPath) {
+    impl_->attempt([&] {
+        if (isExperiment(nameOrPath))
+            return impl_->openExperiment(nameOrPath);
+        impl_->enter(loadScene(nameOrPath), nameOrPath);
+        notify(state, "Opened " + nameOrPath);
+    });
+}
+
+void Workbench::paste(const std::string& text) {
+    impl_->attempt([&] {
+        const Preset preset = parsePreset(text, "clipboard");
+        const Signal signal{};
+        setPane(state.panes, state.panes.active, preset.title, settingsOf(preset.variant, signal));
+        notify(state, "Pasted the preset " + preset.title);
+    });
+}
+
+} // namespace afterglow

@@ -1,0 +1,70 @@
+#pragma once
+
+// What Workbench is made of. Seen by its own .cpp files alone.
+
+#include "app/workbench/instruments.h"
+#include "app/workbench/pictures.h"
+#include "app/workbench/workbench.h"
+
+#include <functional>
+
+namespace afterglow {
+
+struct Workbench::Impl {
+    Impl(Workbench& owner, ShaderLibrary& library, const GlInfo& info, WorkbenchFolders places);
+
+    // The order of a round, in workbench.cpp.
+    bool renderFrame(double wallSeconds, glm::ivec2 view);
+    FrameMoment prepareFrame(glm::ivec2 view);
+    void render(const FrameMoment& moment);
+    void measure(const FrameMoment& moment);
+    void followFreeze();
+    void stepPass(int step);
+    void inspectPixel(bool rendered);
+    Pictures::Sources sources() { return {renderer, state, capture, oracle}; }
+
+    // What was requested, in workbench_files.cpp.
+    void serveRequests();
+    void saveImage(const std::string& stem);
+    void saveImageFiles();
+    void saveCurves();
+    void saveTake();
+    void savePreset(const std::string& name);
+    void recordFrames();
+    void fitRange();
+    void enter(Scene scene, const std::string& name);
+    void openExperiment(const std::string& nameOrPath);
+    Image<glm::u8vec4> composedView();
+    /// Does something with files; an Error becomes a notice.
+    void attempt(const std::function<void()>& action);
+
+    Workbench& owner;
+    ViewState& state; ///< the owner's
+    ShaderLibrary& shaders;
+    GlInfo gl;
+    WorkbenchFolders folders;
+    Renderer renderer;
+    Pictures pictures;
+    Instruments instruments;
+    OracleView oracle;
+    PassCapture capture;
+    PresetStore presets;
+    FrameRecorder recorder;
+
+    PassTimings timings;
+    FrameStats stats;
+    double raysPerSecond = 0.0;
+    double sinceFrame = 0.0, sinceStats = 0.0, sinceReload = 0.0; ///< seconds
+    ProbeLog log;
+    std::array<std::optional<ReasonCounts>, kFilterStates> reasons;
+    std::optional<Inspection> inspection;
+    std::optional<HistoryCheckpoint> checkpoint;
+    std::optional<FrameMoment> now, before; ///< of the last two frames
+    std::uint32_t nowFrame = 0;
+    bool capturesAll = false; ///< every pass of the next frame
+    std::vector<std::string> shaderErrors;
+    std::optional<std::string> copied;
+    std::string experiment; ///< whose frames the take plays; empty: a scene was opened
+};
+
+} // namespace afterglow

@@ -1,0 +1,451 @@
+// The truth of a frozen frame, against experiments and against what must be.
+
+#include "app/experiment/meter.h"
+#include "app/experiment/oracle.h"
+#include "app/workbench/oracle_view.h"
+#include "renderer/pipeline/aov.h"
+#include "renderer/scene/procedural.h"
+#include "shared/bindings.h"
+#include "tests/support/gl_fixture.h"
+#include "tests/support/sequence.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+using namespace afterglow;
+using namespace afterglow::test;
+
+namespace {
+
+constexpr glm::ivec2 kSize{61, 37};
+
+/// A renderer and what the oracle has to know of its last two frames.
+struct Watched {
+    explicit Watched(std::string_view scene, glm::ivec2 size = kSize)
+        : renderer(testShaders(), glInfo(testContext())) {
+        renderer.setScene(makeProceduralScene(scene));
+        renderer.resize(size);
+        lights.resize(renderer.scene().lights.size());
+        camera = cameraAt(renderer.scene(), poseAt(renderer.scene(), 0.0));
+    }
+    void render(std::span<const FilterRun> runs) {
+        moment.hasBefore = frame > 0;
+        moment.secondsBefore = moment.now.seconds;
+        moment.lightsBefore = moment.lights;
+        moment.lights = lights;
+        moment.now = {.camera = camera,
+                      .seconds = secondsPerFrame * double(frame),
+                      .frame = frame,
+                      .seed = 7,
+                      .lights = lights};
+        renderer.render(moment.now, runs);
+        ++frame;
+    }
+    void render(const Settings& settings) {
+        const FilterRun run{0, settings};
+        render({&run, 1});
+    }
+
+    Renderer renderer;
+    Camera camera;
+    std::vector<LightState> lights;
+    double secondsPerFrame = 0.0;
+    std::uint32_t frame = 0;
+    OracleView::Moment moment;
+};
+
+void finish(OracleView& oracle) {
+    while (!oracle.isDone())
+        oracle.advance(100.0);
+}
+
+OracleView makeOracle() {
+    return OracleView(testShaders(), glInfo(testContext()));
+}
+
+Image<float> readImage(OracleView& oracle, OracleImage image, std::size_t state,
+                       const Settings& settings) {
+    const GpuTexture* texture = oracle.image(image, state, settings);
+    REQUIRE(texture != nullptr);
+    return texture->read<float>();
+}
+
+Image<float> minus(const Image<float>& a, const Image<float>& b, const Mask& counts) {
+    Image<float> result(a.size());
+    for (std::size_t i = 0; i < result.pixels().size(); ++i)
+        if (counts.pixels()[i] != 0)
+            result.pixels()[i] = a.pixels()[i] - b.pixels()[i];
+    return result;
+}
+
+/// The uniform block that passes of a frame read.
+GLint frameBlock() {
+    GLint buffer = 0;
+    glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, gpu::kFrameBlock, &buffer);
+    return buffer;
+}
+
+double largest(const Image<float>& image) {
+    double most = 0.0;
+    for (const float value : image.pixels())
+        most = std::max(most, double(std::abs(value)));
+    return most;
+}
+
+} // namespace
+
+TEST_CASE("the oracle of a frame says what an experiment measures there, bit for bit") {
+    const GlCheck noGlMessages;
+    for (const char* timeline : {R"([{"frame": 3, "light": "key", "power": 0.25}])",
+                                 R"([{"frame": 3, "node": "mover", "by": [0.1, 0.0, 0.0]}])"}) {
+        CAPTURE(timeline);
+        const Experiment experiment =
+            parseExperiment(R"({"name": "t", "scene": "moving", "size": [61, 37], "frames": 5,
+                                "seed": 7, "variants": ["asvgf"], "referenceSamples": 6,
+                                "timeline": )" +
+                                std::string(timeline) + "}",
+                            "t.json");
+        const RunPlan plan = planOf(experiment);
+        REQUIRE(plan.moments.size() == 2);
+
+        // The judge.
+        Renderer judge(testShaders(), glInfo(testContext()));
+        judge.setScene(plan.scene);
+        judge.resize(kSize);
+        ReferenceStore store(ReferenceMaker("", "", "", ""));
+        Truths truths(experiment, plan);
+        truths.make(judge, store, {0, 5}, {});
+
+        Renderer watched(testShaders(), glInfo(testContext()));
+        watched.setScene(plan.scene);
+        watched.resize(kSize);
+        const Settings settings = settingsOf(Filter::Asvgf);
+        for (int frame = 0; frame < 5; ++frame) {
+            CAPTURE(frame);
+            watched.render(truths.inputAt(frame), settings);
+            if (frame < 2)
+                continue;
+            OracleView oracle = makeOracle();
+            oracle.begin(watched,
+                         {.now = truths.inputAt(frame),
+                          .lights = plan.moments[momentAt(plan.moments, frame)].lights,
+                          .secondsBefore = experiment.seconds(frame - 1),
+                          .lightsBefore = plan.moments[momentAt(plan.moments, frame - 1)].lights,
+                          .hasBefore = true},
+                         settings, experiment.referenceSamples);
+            finish(oracle);
+            const Truth& truth = truths.at(frame);
+            const FrameImages images = readFrame(watched, settings, true);
+            CHECK(oracle.rmse(0, settings) == rmse(images.lit, truth.lit, &truth.foreground));
+            CHECK(differingPixels(readImage(oracle, OracleImage::Error, 0, settings),
+                                  minus(luminanceOf(images.lit), luminanceOf(truth.lit),
+                                        truth.foreground)) == 0);
+
+            const bool isFirst = frame == 3;
+            const Image<float> ideal =
+                isFirst ? truth.idealLambda : Image<float>(images.lambda.size());
+            CHECK(differingPixels(readImage(oracle, OracleImage::Lambda, 0, settings), ideal) == 0);
+            CHECK((largest(ideal) > 0.1) == isFirst);
+            CHECK(differingPixels(
+                      readImage(oracle, OracleImage::LambdaError, 0, settings),
+                      minus(images.lambda, ideal, isFirst ? truth.litFirst : truth.litLater)) == 0);
+
+            Image<float> alpha =
+                idealAlpha(images.history, truth.luminance, truth.variance, images.hasHistory);
+            Mask counts = images.hasHistory;
+            for (std::size_t i = 0; i < counts.pixels().size(); ++i) {
+                counts.pixels()[i] &= truth.foreground.pixels()[i];
+                if (truth.foreground.pixels()[i] == 0)
+                    alpha.pixels()[i] = 0.0f;
+            }
+            CHECK(largest(alpha) > 0.5);
+            CHECK(differingPixels(readImage(oracle, OracleImage::Alpha, 0, settings), alpha) == 0);
+            CHECK(differingPixels(readImage(oracle, OracleImage::AlphaError, 0, settings),
+                                  minus(images.alpha, alpha, counts)) == 0);
+        }
+    }
+}
+
+TEST_CASE("with the only light gone the ideal lambda is 1 where it shone, and A-SVGF has it") {
+    const GlCheck noGlMessages;
+    Watched watched("tiny");
+    const Settings settings = settingsOf(Filter::Asvgf, Signal::Shadows);
+    for (int i = 0; i < 6; ++i) {
+        watched.lights[0].on = i < 5;
+        watched.render(settings);
+    }
+    OracleView oracle = makeOracle();
+    oracle.begin(watched.renderer, watched.moment, settings, 16);
+    finish(oracle);
+    const Image<float> ideal = readImage(oracle, OracleImage::Lambda, 0, settings);
+    CHECK(std::ranges::all_of(ideal.pixels(), [](float l) { return l == 0.0f || l == 1.0f; }));
+    CHECK(std::ranges::count(ideal.pixels(), 1.0f) > 100); // of 273
+    const Image<float> error = readImage(oracle, OracleImage::LambdaError, 0, settings);
+    // Where no sample has landed around, it says nothing.
+    const auto missed = std::ranges::count_if(error.pixels(), [](float e) { return e < -1e-3f; });
+    CHECK(missed < 0.03 * double(std::ranges::count(ideal.pixels(), 1.0f))); // 2 of 118
+    CHECK(std::ranges::all_of(error.pixels(), [](float e) { return e <= 0.0f; }));
+    // The truth is black, and a history of light is all error.
+    const auto reference = oracle.image(OracleImage::Reference, 0, settings)->read<glm::vec4>();
+    CHECK(reference.size() == kSize);
+    const Image<float> alpha = readImage(oracle, OracleImage::Alpha, 0, settings);
+    CHECK(std::ranges::count(alpha.pixels(), 1.0f) > 800);
+}
+
+TEST_CASE("where nothing changes the ideal lambda is 0, whether or not time goes by") {
+    const GlCheck noGlMessages;
+    for (const double secondsPerFrame : {0.0, 0.1}) {
+        Watched watched("cornell");
+        watched.secondsPerFrame = secondsPerFrame;
+        const Settings settings = settingsOf(Filter::Asvgf);
+        for (int i = 0; i < 3; ++i)
+            watched.render(settings);
+        OracleView oracle = makeOracle();
+        oracle.begin(watched.renderer, watched.moment, settings, 4);
+        finish(oracle);
+        CHECK(largest(readImage(oracle, OracleImage::Lambda, 0, settings)) == 0.0);
+    }
+}
+
+TEST_CASE("two references of one moment are equal where nothing that can be seen has changed") {
+    const GlCheck noGlMessages;
+    Watched watched("rooms"); // one light shines in another room
+    const Settings settings = settingsOf(Filter::Asvgf);
+    for (int i = 0; i < 3; ++i) {
+        watched.lights[1].on = i < 2;
+        watched.render(settings);
+    }
+    REQUIRE(watched.moment.lights != watched.moment.lightsBefore);
+    OracleView oracle = makeOracle();
+    oracle.begin(watched.renderer, watched.moment, settings, 4);
+    finish(oracle);
+    CHECK(largest(readImage(oracle, OracleImage::Lambda, 0, settings)) == 0.0);
+}
+
+TEST_CASE("the error of a picture falls towards that of a converged one, and so does rmse") {
+    const GlCheck noGlMessages;
+    Watched watched("cornell");
+    std::vector<FilterRun> runs{{0, settingsOf(Filter::None)}, {2, settingsOf(Filter::Svgf)}};
+    for (int i = 0; i < 16; ++i)
+        watched.render(runs);
+    OracleView oracle = makeOracle();
+    oracle.begin(watched.renderer, watched.moment, runs[0].settings, 128);
+    finish(oracle);
+    const double raw = oracle.rmse(0, runs[0].settings).value();
+    const double filtered = oracle.rmse(2, runs[1].settings).value();
+    CHECK(raw > 0.1);
+    CHECK(filtered < 0.5 * raw);
+
+    const auto error = readImage(oracle, OracleImage::Error, 0, runs[0].settings);
+    double sum = 0.0;
+    for (const float e : error.pixels())
+        sum += e;
+    CHECK(std::abs(sum / double(error.pixels().size())) < 0.1 * raw); // noise has no bias
+    CHECK_FALSE(oracle.rmse(1, runs[0].settings));
+    CHECK(oracle.image(OracleImage::Error, 1, runs[0].settings) == nullptr);
+}
+
+TEST_CASE("a converged picture has next to no error") {
+    const GlCheck noGlMessages;
+    Watched watched("cornell");
+    const Settings settings = settingsOf(Filter::None);
+    watched.render(settings);
+    const double noisy = [&] {
+        OracleView oracle = makeOracle();
+        oracle.begin(watched.renderer, watched.moment, settings, 64);
+        finish(oracle);
+        return oracle.rmse(0, settings).value();
+    }();
+    watched.renderer.beginReference(watched.moment.now, settings);
+    watched.renderer.addReferenceSamples(64);
+    watched.renderer.finishReference();
+    OracleView oracle = makeOracle();
+    oracle.begin(watched.renderer, watched.moment, settings, 64);
+    finish(oracle);
+    CHECK(oracle.rmse(0, settings).value() < 0.1 * noisy); // two seeds of 64 samples
+}
+
+TEST_CASE("an oracle says nothing of what a filter does not have") {
+    const GlCheck noGlMessages;
+    Watched watched("tiny");
+    std::vector<FilterRun> runs{{0, settingsOf(Filter::None)},
+                                {1, settingsOf(Filter::Percentile)},
+                                {3, settingsOf(Filter::Fixed)}};
+    OracleView oracle = makeOracle();
+    CHECK_THROWS_AS(oracle.begin(watched.renderer, watched.moment, runs[0].settings, 2),
+                    std::logic_error);
+    watched.render(runs);
+    for (const bool hasBefore : {false, true}) {
+        if (hasBefore)
+            watched.render(runs);
+        oracle.begin(watched.renderer, watched.moment, runs[0].settings, 2);
+        for (std::size_t image = 0; image < kOracleImages; ++image)
+            CHECK(oracle.image(OracleImage(image), 0, runs[0].settings) == nullptr);
+        CHECK_FALSE(oracle.rmse(0, runs[0].settings));
+        finish(oracle);
+        const auto has = [&](OracleImage image, std::size_t run) {
+            return oracle.image(image, runs[run].state, runs[run].settings) != nullptr;
+        };
+        for (std::size_t run = 0; run < runs.size(); ++run) {
+            CHECK(has(OracleImage::Reference, run));
+            CHECK(has(OracleImage::Error, run));
+            CHECK_FALSE(has(OracleImage::Lambda, run));
+            CHECK_FALSE(has(OracleImage::LambdaError, run));
+            CHECK(has(OracleImage::Alpha, run) == (run > 0));
+            CHECK(has(OracleImage::AlphaError, run) == (run > 0));
+        }
+        // Without a history the ideal is to take the newest sample.
+        if (!hasBefore) {
+            const Image<float> alpha = readImage(oracle, OracleImage::Alpha, 3, runs[2].settings);
+            CHECK(std::ranges::count(alpha.pixels(), 1.0f) ==
+                  std::ptrdiff_t(countOf(foregroundOf(watched.renderer))));
+            CHECK(largest(readImage(oracle, OracleImage::AlphaError, 3, runs[2].settings)) == 0.0);
+        }
+    }
+    const Settings adaptive = settingsOf(Filter::Asvgf);
+    watched.render(adaptive);
+    oracle.begin(watched.renderer, watched.moment, adaptive, 2);
+    finish(oracle);
+    CHECK(oracle.image(OracleImage::Lambda, 0, adaptive) != nullptr);
+    oracle.end();
+    CHECK_FALSE(oracle.isActive());
+    CHECK_FALSE(oracle.isDone());
+    CHECK(oracle.progress() == 0.0);
+    CHECK(oracle.image(OracleImage::Lambda, 0, adaptive) == nullptr);
+    CHECK_FALSE(oracle.advance(1.0));
+}
+
+TEST_CASE("an image is made once, and again for other settings") {
+    const GlCheck noGlMessages;
+    Watched watched("tiny");
+    Settings settings = settingsOf(Filter::Asvgf);
+    watched.render(settings);
+    watched.lights[0].power = 0.5f;
+    watched.render(settings);
+    OracleView oracle = makeOracle();
+    oracle.begin(watched.renderer, watched.moment, settings, 4);
+    finish(oracle);
+    const Image<float> first = readImage(oracle, OracleImage::Lambda, 0, settings);
+    const GLuint name = oracle.image(OracleImage::Lambda, 0, settings)->id();
+    settings.display.exposure = 2.0f; // nothing to do with it
+    CHECK(oracle.image(OracleImage::Lambda, 0, settings)->id() == name);
+    CHECK(largest(first) > 0.1);
+    settings.denoiser.gradient.deltaFloor = 1e6f;
+    CHECK(largest(readImage(oracle, OracleImage::Lambda, 0, settings)) == 0.0);
+    settings.denoiser.gradient.deltaFloor = Settings{}.denoiser.gradient.deltaFloor;
+    CHECK(differingPixels(readImage(oracle, OracleImage::Lambda, 0, settings), first) == 0);
+}
+
+TEST_CASE("the frames of a watched renderer are the same bits with an oracle in between") {
+    const GlCheck noGlMessages;
+    Watched watched("moving"), alone("moving");
+    watched.secondsPerFrame = alone.secondsPerFrame = 1.0 / 30.0;
+    const std::vector<FilterRun> runs{{0, settingsOf(Filter::Asvgf)},
+                                      {1, settingsOf(Filter::Svgf)}};
+    OracleView oracle = makeOracle();
+    for (int frame = 0; frame < 6; ++frame) {
+        CAPTURE(frame);
+        watched.lights[0].on = alone.lights[0].on = frame < 3;
+        watched.render(runs);
+        alone.render(runs);
+        for (const FilterRun& run : runs)
+            CHECK(differingPixels(watched.renderer.filteredSignal(run.state).read<glm::vec4>(),
+                                  alone.renderer.filteredSignal(run.state).read<glm::vec4>()) == 0);
+        CHECK(differingPixels(watched.renderer.targets().samples.read<glm::uvec4>(),
+                              alone.renderer.targets().samples.read<glm::uvec4>()) == 0);
+        const GLint block = frameBlock();
+        if (frame == 2 || frame == 3)
+            oracle.begin(watched.renderer, watched.moment, runs[0].settings, 8);
+        oracle.advance(0.0);
+        CHECK(frameBlock() == block); // what shows the images of a frame reads it too
+    }
+    // Nor do its frames disturb the oracle, which goes on from moment to moment.
+    Watched still("moving");
+    still.secondsPerFrame = 1.0 / 30.0;
+    for (int frame = 0; frame < 4; ++frame) {
+        still.lights[0].on = frame < 3;
+        still.render(runs);
+    }
+    OracleView undisturbed = makeOracle();
+    undisturbed.begin(still.renderer, still.moment, runs[0].settings, 8);
+    finish(undisturbed);
+    CHECK_FALSE(oracle.isDone());
+    finish(oracle);
+    for (const OracleImage image : {OracleImage::Error, OracleImage::Lambda, OracleImage::Alpha})
+        CHECK(differingPixels(readImage(oracle, image, 1, runs[0].settings),
+                              readImage(undisturbed, image, 1, runs[0].settings)) == 0);
+}
+
+TEST_CASE("progress rises from 0 to 1, in portions of about the time that is asked for") {
+    const GlCheck noGlMessages;
+    Watched watched("cornell");
+    const Settings settings = settingsOf(Filter::Asvgf);
+    for (int i = 0; i < 2; ++i) {
+        watched.lights[0].on = i == 0;
+        watched.render(settings);
+    }
+    OracleView oracle = makeOracle();
+    CHECK(oracle.progress() == 0.0);
+    oracle.begin(watched.renderer, watched.moment, settings, 200);
+    CHECK(oracle.isActive());
+    CHECK_FALSE(oracle.isDone());
+    CHECK(oracle.progress() == 0.0);
+    double last = 0.0;
+    int calls = 0, becameDone = 0;
+    std::vector<double> times;
+    while (!oracle.isDone() && calls < 1000) {
+        const auto start = std::chrono::steady_clock::now();
+        becameDone += oracle.advance(25.0);
+        times.push_back(
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                .count());
+        CHECK(oracle.progress() > last);
+        CHECK(oracle.progress() <= 1.0);
+        CHECK((oracle.progress() == 1.0) == oracle.isDone());
+        last = oracle.progress();
+        ++calls;
+    }
+    CHECK(last == 1.0);
+    CHECK(becameDone == 1);
+    CHECK_FALSE(oracle.advance(25.0));
+    REQUIRE(calls > 4);
+    std::ranges::nth_element(times, times.begin() + calls / 2);
+    CAPTURE(calls);
+    CAPTURE(times[std::size_t(calls) / 2]);
+    // Half of them, since others use this machine as well.
+    CHECK(times[std::size_t(calls) / 2] > 8.0);
+    CHECK(times[std::size_t(calls) / 2] < 200.0);
+
+    // No time at all is one sample.
+    oracle.begin(watched.renderer, watched.moment, settings, 2);
+    for (int i = 0; i < 4; ++i)
+        CHECK(oracle.advance(0.0) == (i == 3));
+}
+
+TEST_CASE("an oracle of a picture without surfaces, or of one pixel, says so calmly") {
+    const GlCheck noGlMessages;
+    const Settings settings = settingsOf(Filter::Asvgf);
+    Watched away("tiny");
+    away.camera = lookAt({0.0f, 1.0f, 10.0f}, {0.0f, 1.0f, 20.0f});
+    away.render(settings);
+    away.render(settings);
+    OracleView oracle = makeOracle();
+    oracle.begin(away.renderer, away.moment, settings, 2);
+    finish(oracle);
+    CHECK_FALSE(oracle.rmse(0, settings));
+    for (const OracleImage image : {OracleImage::Error, OracleImage::Lambda, OracleImage::Alpha})
+        CHECK(largest(readImage(oracle, image, 0, settings)) == 0.0);
+
+    Watched one("tiny", {1, 1});
+    one.render(settings);
+    one.render(settings);
+    oracle.begin(one.renderer, one.moment, settings, 2);
+    finish(oracle);
+    CHECK(oracle.image(OracleImage::LambdaError, 0, settings)->size() == glm::ivec2(1));
+    CHECK(oracle.rmse(0, settings).value() >= 0.0);
+}

@@ -1,0 +1,465 @@
+// The workbench without a window: frames, panes, probes, takes and files, driven by what keys do.
+
+#include "app/experiment/experiment.h"
+#include "app/experiment/run_plan.h"
+#include "app/workbench/live_response.h"
+#include "app/workbench/pointer.h"
+#include "app/workbench/workbench.h"
+#include "program.h"
+#include "renderer/image/image_io.h"
+#include "renderer/scene/procedural.h"
+#include "tests/support/gl_fixture.h"
+#include "tests/support/sequence.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include <doctest/doctest.h>
+
+using namespace afterglow;
+using namespace afterglow::test;
+
+namespace {
+
+constexpr glm::ivec2 kSize{61, 37};
+constexpr double kRound = 0.01; // seconds
+
+/// A workbench in a folder of its own, which renders 61 x 37 pixels.
+struct Bench {
+    explicit Bench(std::string_view scene, Filter filter = Filter::Asvgf)
+        : workbench(testShaders(), glInfo(testContext()), makeProceduralScene(scene),
+                    stateOf(scene, filter), {folder.path(), folder.path() / "presets"}) {}
+
+    static ViewState stateOf(std::string_view scene, Filter filter) {
+        ViewState state = startState(makeProceduralScene(scene), settingsOf(filter));
+        state.sceneName = scene;
+        state.resolution = {.followWindow = false, .scale = 1.0f, .fixed = kSize};
+        return state;
+    }
+
+    void press(char key, bool control = false, bool shift = false) {
+        press(keyOf(key), control, shift);
+    }
+    void press(Key key, bool control = false, bool shift = false) {
+        const auto command = commandFor({key, control, shift});
+        REQUIRE(command);
+        perform(state, *command);
+    }
+    /// So many frames, and not one more.
+    void frames(int count) {
+        for (int i = 0; i < count; ++i)
+            REQUIRE(workbench.advance(kRound, kSize));
+    }
+    bool round() { return workbench.advance(kRound, kSize); }
+    Image<glm::u8vec4> picture(std::size_t pane) {
+        const GpuTexture* const texture = workbench.picture(pane);
+        REQUIRE(texture);
+        return texture->read<glm::u8vec4>();
+    }
+
+    TemporaryFolder folder;
+    Workbench workbench;
+    ViewState& state = workbench.state;
+};
+
+double meanOf(const Image<glm::u8vec4>& image) {
+    double sum = 0.0;
+    for (const glm::u8vec4& p : image.pixels())
+        sum += double(p.r) + double(p.g) + double(p.b);
+    return sum / (3.0 * double(image.pixels().size()));
+}
+
+} // namespace
+
+TEST_CASE(
+    "when the only light goes out the A-SVGF pane follows at once and the SVGF pane does not") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    setField(bench.state.panes, fieldByKey("signal"), double(Signal::Shadows));
+    bench.press('T'); // wipe: A-SVGF and SVGF
+    REQUIRE(bench.state.panes.layout == PaneLayout::Wipe);
+    setProbe(bench.state, 0, probeBetween({0, 0}, {60, 36}, kSize), kSize);
+    bench.frames(20);
+    bench.press('1');
+    bench.frames(52);
+
+    const ProbeLog& log = bench.workbench.probeLog();
+    REQUIRE(log.frames().size() == 72);
+    CHECK(log.frames()[20].marks.at(0).text.ends_with(" off"));
+    CHECK(log.frames()[20].marks.at(0).step);
+    const auto lit = [&](std::size_t frame, std::size_t pane) {
+        return log.frames()[frame].samples[0][pane]->lit;
+    };
+    const double end = log.frames()[20].samples[0][0]->rawLit;
+    CHECK(end == 0.0);
+    for (const std::size_t pane : {0u, 1u}) {
+        const double step = lit(19, pane) - end;
+        CHECK(step > 0.05);
+        CAPTURE(pane);
+        CAPTURE((lit(20, pane) - end) / step);
+        CHECK(((lit(21, pane) - end) / step < 0.1) == (pane == 0));
+    }
+    const LiveResponse quick = liveResponse(log, 0, 0), slow = liveResponse(log, 0, 1);
+    REQUIRE(quick.claimed());
+    REQUIRE(slow.claimed());
+    CHECK(quick.status == LiveResponse::Status::Settled);
+    CHECK(quick.t90 <= 1);
+    CHECK(slow.t90 >= 8);
+    CHECK(quick.ghostFrames < 0.5);
+    CHECK(slow.ghostFrames > 3.0);
+
+    // The same as CSV.
+    bench.press('C', true);
+    bench.round();
+    const auto csv = bench.workbench.takeCopied();
+    REQUIRE(csv);
+    CHECK(std::ranges::count(*csv, '\n') == 1 + 2 * 72);
+    CHECK(csv->find("A-SVGF") != std::string::npos);
+    CHECK_FALSE(bench.workbench.takeCopied());
+    bench.press('E', true);
+    bench.round();
+    CHECK(std::filesystem::exists(bench.folder.path() / "afterglow-curves-0001.csv"));
+}
+
+TEST_CASE("another filter, another pane and another layout clear no history") {
+    const GlCheck noGlMessages;
+    Bench bench("cornell", Filter::Svgf);
+    setProbe(bench.state, 0, probeBetween({5, 5}, {55, 32}, kSize), kSize);
+    bench.frames(24);
+    const auto history = [&](std::size_t pane) {
+        const auto& newest = bench.workbench.probeLog().frames().back();
+        return newest.samples[0][pane] ? newest.samples[0][pane]->history : -1.0;
+    };
+    CHECK(history(0) > 15.0);
+    const double grown = history(0);
+    bench.press('F');
+    bench.frames(1);
+    CHECK(history(0) > grown - 1.0);
+    bench.press('T', false, true); // difference
+    bench.press('T', false, true); // four up
+    REQUIRE(bench.state.panes.layout == PaneLayout::FourUp);
+    bench.frames(2);
+    for (std::size_t pane = 0; pane < 4; ++pane) {
+        CAPTURE(pane);
+        if (bench.state.panes.all[pane].settings.filter != Filter::None)
+            CHECK(history(pane) > grown - 1.0);
+    }
+    bench.press('H');
+    bench.frames(1);
+    CHECK(history(0) == 1.0);
+}
+
+TEST_CASE("a loop between two points shows the same bits in every round, with lights and all") {
+    const GlCheck noGlMessages;
+    Bench bench("moving");
+    bench.frames(7);
+    bench.press('I');
+    bench.frames(2);
+    bench.press('1');
+    bench.frames(3);
+    bench.press('O');
+    std::vector<Image<glm::u8vec4>> first;
+    for (int i = 0; i < 5; ++i) {
+        bench.frames(1);
+        first.push_back(bench.picture(0));
+    }
+    CHECK(meanOf(first[4]) < meanOf(first[0]) - 5.0);
+    for (int roundOfLoop = 0; roundOfLoop < 2; ++roundOfLoop)
+        for (int i = 0; i < 5; ++i) {
+            bench.frames(1);
+            CAPTURE(i);
+            CHECK(differingPixels(bench.picture(0), first[std::size_t(i)]) == 0);
+        }
+    // The filter is not part of the take.
+    cycleFilter(bench.state, 1);
+    bench.frames(5);
+    CHECK(differingPixels(bench.picture(0), first[4]) > 100);
+    bench.press(Key::Backspace);
+    CHECK_FALSE(bench.state.lights[0].on);
+    CHECK_FALSE(bench.state.time.playing);
+    bench.frames(1);
+
+    bench.press('T', true);
+    bench.round();
+    const auto file = bench.folder.path() / "afterglow-take-0001.json";
+    CAPTURE(bench.state.notice.text);
+    REQUIRE(std::filesystem::exists(file));
+    const Experiment saved = loadExperiment(file.string());
+    CHECK(saved.scene == "moving");
+    CHECK(saved.timeline.frames() > 5);
+}
+
+TEST_CASE("an experiment in the window shows the frames that it measures, bit for bit") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    const std::string file = (bench.folder.path() / "dim.json").string();
+    std::ofstream(file) << R"({"name": "dim", "scene": "cornell", "size": [61, 37], "frames": 9,
+        "seed": 5, "variants": ["asvgf", "svgf"], "animated": false,
+        "timeline": [{"frame": 0, "light": "fill", "on": false},
+                     {"frame": 4, "light": "key", "power": 0.5}]})";
+    bench.state.wanted.open = file;
+    bench.frames(1);
+    CAPTURE(bench.state.notice.text);
+    CHECK(bench.state.panes.layout == PaneLayout::TwoUp);
+    chooseLayout(bench.state.panes, PaneLayout::Single); // alone, as it is measured
+    const Experiment experiment = loadExperiment(file);
+    const RunPlan plan = planOf(experiment);
+    Renderer judge(testShaders(), glInfo(testContext()));
+    judge.setScene(plan.scene);
+    judge.resize(kSize);
+    bench.state.time.resetWanted = true;
+    bench.workbench.open(file); // from the start
+    chooseLayout(bench.state.panes, PaneLayout::Single);
+    bench.state.panes.all[0].settings.denoiser.temporal.alpha = 0.2f;
+    for (int frame = 0; frame < 9; ++frame) {
+        bench.frames(1);
+        const Moment& moment = plan.moments[momentAt(plan.moments, frame)];
+        const double seconds = experiment.seconds(frame);
+        judge.render({.camera = cameraAt(plan.scene, poseAt(plan.scene, seconds)),
+                      .seconds = seconds,
+                      .frame = std::uint32_t(frame),
+                      .seed = 5,
+                      .lights = moment.lights},
+                     settingsOf(Filter::Asvgf));
+        CAPTURE(frame);
+        CHECK(differingPixels(bench.picture(0),
+                              judge.targets().filters[0].display.read<glm::u8vec4>()) == 0);
+    }
+    CHECK(bench.workbench.probeLog().frames().back().marks.empty());
+    CHECK(std::ranges::any_of(bench.workbench.probeLog().frames(), [](const ProbeFrame& f) {
+        return !f.marks.empty() && f.marks[0].text == "key to 50 %" && f.marks[0].step;
+    }));
+    const auto& recent = bench.state.preferences.recentFiles;
+    CHECK(std::ranges::find(recent, std::filesystem::path(file)) != recent.end());
+}
+
+TEST_CASE("files that are no scenes and no experiments are told and change nothing") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    bench.frames(2);
+    const auto before = bench.picture(0);
+    std::ofstream(bench.folder.path() / "bad.json") << "{\"name\": ";
+    std::ofstream(bench.folder.path() / "bad.glb") << "no";
+    for (const std::string name : {"bad.json", "bad.glb", "missing.gltf"}) {
+        CAPTURE(name);
+        bench.workbench.open((bench.folder.path() / name).string());
+        CHECK(bench.state.notice.isError);
+        CHECK(bench.state.notice.text.find(name) != std::string::npos);
+        CHECK(bench.workbench.scene().name == "tiny");
+        CHECK(differingPixels(bench.picture(0), before) == 0);
+    }
+    bench.workbench.open("nowhere");
+    CHECK(bench.state.notice.isError);
+    bench.frames(1);
+    bench.workbench.open("cornell");
+    CHECK(bench.workbench.scene().name == "cornell");
+    CHECK(bench.state.lightNames.size() == 2);
+    CHECK(bench.workbench.picture(0) == nullptr);
+    bench.frames(1);
+}
+
+TEST_CASE("stepping goes from pass to pass of one frame and then to the next frame") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    bench.frames(3);
+    bench.press('.');
+    bench.round();
+    CHECK(bench.state.time.paused);
+    CHECK(bench.state.shown == Shown{Shown::Kind::Pass, 0});
+    const std::uint32_t frame = bench.state.time.frame;
+    const std::size_t count = bench.workbench.passes().made().size();
+    CHECK(count > 20);
+    CHECK(bench.workbench.passes().made().front().pass == "visibility");
+    CHECK(bench.workbench.passes().made().back().pass == "tone map");
+    const auto named = [&](std::string_view pass) {
+        return std::ranges::any_of(bench.workbench.passes().made(),
+                                   [&](const PassCapture::Made& m) { return m.pass == pass; });
+    };
+    CHECK(named("a-trous 5"));
+    CHECK(named("temporal"));
+    CHECK_FALSE(named("temporal 1"));
+    int different = 0;
+    Image<glm::u8vec4> before = bench.picture(0);
+    for (std::size_t i = 1; i < count; ++i) {
+        bench.press('.');
+        CHECK_FALSE(bench.round());
+        CHECK(bench.state.shown.index == i);
+        const auto now = bench.picture(0);
+        different += differingPixels(now, before) > 50;
+        before = now;
+    }
+    CHECK(bench.state.time.frame == frame);
+    CHECK(different > int(count) / 2);
+    // The last image is the picture itself.
+    CHECK(differingPixels(
+              before,
+              bench.workbench.renderer().targets().filters[0].display.read<glm::u8vec4>()) == 0);
+    bench.press(',');
+    bench.round();
+    CHECK(bench.state.shown.index == count - 2);
+    bench.press('.');
+    bench.round();
+    bench.press('.');
+    CHECK(bench.round());
+    CHECK(bench.state.time.frame == frame + 1);
+    CHECK(bench.state.shown.index == 0);
+}
+
+TEST_CASE("what passes make does not depend on whether somebody looks") {
+    const GlCheck noGlMessages;
+    Bench watched("tiny"), alone("tiny");
+    watched.state.showPasses = watched.state.showInspector = true;
+    watched.state.inspected = PanePixel{0, {30, 20}};
+    setProbe(watched.state, 0, probeAt({30, 20}, kSize), kSize);
+    for (int i = 0; i < 4; ++i) {
+        show(watched.state, Shown::Kind::Pass, std::size_t(3 * i));
+        watched.frames(1);
+        alone.frames(1);
+        CHECK(watched.workbench.picture(0));
+    }
+    show(watched.state, Shown::Kind::Picture);
+    CHECK(differingPixels(watched.picture(0), alone.picture(0)) == 0);
+    REQUIRE(watched.workbench.inspection());
+    CHECK(watched.workbench.inspection()->pixel == glm::ivec2(30, 20));
+    const auto reasons = watched.workbench.reasons(0);
+    REQUIRE(reasons);
+    std::uint32_t pixels = 0, strata = 0;
+    for (const std::uint32_t n : reasons->history)
+        pixels += n;
+    for (const std::uint32_t n : reasons->fates)
+        strata += n;
+    CHECK(pixels > 500);
+    CHECK(strata == 21 * 13);
+}
+
+TEST_CASE("a frozen moment converges, is compared, and lives on as if nothing had been") {
+    const GlCheck noGlMessages;
+    Bench bench("cornell"), judge("cornell");
+    bench.state.oracleSamples = 64;
+    for (Bench* each : {&bench, &judge}) {
+        each->frames(12);
+        each->press('1');
+        each->frames(1);
+    }
+    bench.press('U');
+    int rounds = 0;
+    while (!bench.workbench.oracle().isDone() && rounds++ < 2000)
+        CHECK_FALSE(bench.round());
+    REQUIRE(bench.workbench.oracle().isDone());
+    const auto rmse = bench.workbench.oracleRmse(0);
+    REQUIRE(rmse);
+    CHECK(*rmse > 0.0);
+    CHECK(*rmse < 0.5);
+    for (std::size_t i = 0; i < kOracleImages; ++i) {
+        show(bench.state, Shown::Kind::Oracle, i);
+        CAPTURE(nameOf(OracleImage(i)));
+        CHECK(bench.workbench.legend(0).note.empty());
+        CHECK(differingPixels(bench.picture(0), judge.picture(0)) > 500);
+    }
+    bench.press('U');
+    CHECK_FALSE(bench.state.time.paused);
+    for (Bench* each : {&bench, &judge})
+        each->frames(2);
+    CHECK(differingPixels(bench.picture(0), judge.picture(0)) == 0);
+}
+
+TEST_CASE("pictures, images of the frame and recordings are files") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    chooseLayout(bench.state.panes, PaneLayout::FourUp);
+    bench.frames(2);
+    bench.press(Key::F12);
+    bench.round();
+    const auto whole = readPng(bench.folder.path() / "afterglow-0001.png");
+    CHECK(whole.size() == 2 * kSize);
+    bench.press('T'); // difference
+    bench.press('T'); // single
+    bench.press(Key::F12, true);
+    bench.round();
+    const auto images = bench.folder.path() / "afterglow-images-0001";
+    CHECK(std::filesystem::exists(images / "picture.png"));
+    CHECK(std::filesystem::exists(images / "lambda.exr"));
+    bench.state.recordFrames = 3;
+    bench.press(Key::F9);
+    bench.frames(5);
+    CHECK_FALSE(bench.workbench.recorder().isRecording());
+    CHECK(std::filesystem::exists(bench.folder.path() / "afterglow-0001" / "frame_00002.png"));
+    CHECK_FALSE(
+        std::filesystem::exists(bench.folder.path() / "afterglow-0001" / "frame_00003.png"));
+    const auto recorded = readPng(bench.folder.path() / "afterglow-0001" / "frame_00002.png");
+    CHECK(recorded.size() == kSize);
+}
+
+TEST_CASE("a pane that is shown while time stands still has no picture before the next frame") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    bench.frames(2);
+    bench.press('P');
+    chooseLayout(bench.state.panes, PaneLayout::TwoUp);
+    CHECK_FALSE(bench.round());
+    CHECK(bench.workbench.picture(0));
+    CHECK(bench.workbench.picture(1) == nullptr);
+    CHECK_FALSE(bench.workbench.legend(1).note.empty());
+    bench.press(Key::F12);
+    bench.round();
+    const auto half = readPng(bench.folder.path() / "afterglow-0001.png");
+    REQUIRE(half.size() == glm::ivec2(2 * kSize.x, kSize.y));
+    CHECK(half({30, 20}) != glm::u8vec4(0, 0, 0, 255));
+    CHECK(half({kSize.x + 30, 20}) == glm::u8vec4(0, 0, 0, 255));
+    chooseLayout(bench.state.panes, PaneLayout::Difference);
+    bench.round();
+    CHECK(bench.workbench.picture(0) == nullptr);
+    bench.press(Key::F12);
+    bench.round(); // nothing to be saved is no fault
+    bench.press('N');
+    CHECK(bench.round());
+    CHECK(bench.workbench.picture(0));
+}
+
+TEST_CASE("presets go from pane to pane through the clipboard and into files") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    setField(bench.state.panes, fieldByKey("alpha"), 0.05);
+    bench.press('C', true, true);
+    bench.round();
+    const auto text = bench.workbench.takeCopied();
+    REQUIRE(text);
+    choosePane(bench.state.panes, 2);
+    REQUIRE(bench.state.settings().filter != Filter::Asvgf);
+    bench.workbench.paste(*text);
+    CHECK(bench.state.settings().filter == Filter::Asvgf);
+    CHECK(bench.state.settings().denoiser.temporal.alpha == 0.05f);
+    bench.workbench.paste(R"({"name": "x", "description": "d", "source": "s",
+        "filter": "asvgf", "settings": {"alhpa": 0.1}})");
+    CHECK(bench.state.notice.isError);
+    CHECK(bench.state.notice.text.find("alhpa") != std::string::npos);
+    CHECK(bench.state.settings().denoiser.temporal.alpha == 0.05f);
+    bench.state.wanted.savePreset = "mine";
+    bench.round();
+    CAPTURE(bench.state.notice.text);
+    CHECK(std::filesystem::exists(bench.folder.path() / "presets" / "mine.json"));
+    REQUIRE(bench.workbench.presets().find("mine"));
+    bench.state.wanted.savePreset = "paper"; // built in
+    bench.round();
+    CHECK(bench.state.notice.isError);
+}
+
+TEST_CASE("a difference of a filter with itself is black, and of two filters it is not") {
+    const GlCheck noGlMessages;
+    Bench bench("cornell");
+    bench.state.panes.gain = 64.0f;
+    copyPane(bench.state.panes, 0, 1);
+    chooseLayout(bench.state.panes, PaneLayout::Difference);
+    bench.frames(4);
+    CHECK(meanOf(bench.picture(0)) < 1.0);
+    chooseFilter(bench.state, Filter::Fixed);
+    bench.frames(2);
+    const double picture = meanOf(bench.picture(0));
+    CHECK(picture > 10.0);
+    // Of an image behind the picture, with its sign: gray is no difference.
+    const auto all = aovs();
+    const auto variance = std::ranges::find(all, "history", &AovInfo::name);
+    show(bench.state, Shown::Kind::Aov, std::size_t(variance - all.begin()));
+    bench.frames(1);
+    CHECK(bench.workbench.picture(0));
+}
