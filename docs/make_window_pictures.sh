@@ -85,7 +85,7 @@ picture wipe cornell t "${probe[@]}" F4 F4 frames:40 l frames:3
 picture curves cornell t "${probe[@]}" frames:40 l frames:60
 picture two-up cornell t t frames:30 l frames:4
 picture four-up hall t t t frames:24 l frames:3
-picture difference cornell T T T T frames:30 l frames:3
+picture difference cornell T frames:30 l frames:3
 picture inspector cornell F2 frames:30 l frames:1 move:1000,430 ctrl+i wait:1
 picture passes hall F3 frames:16 period period period period period period period period period period wait:2
 picture lambda cornell frames:20 2 frames:1 v v v v v v v v v v v v v v v v v v v

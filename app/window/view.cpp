@@ -72,8 +72,11 @@ int runView(const ViewOptions& options) {
         state.wanted.open = opening.name;
     Viewer viewer(options, std::move(opening.scene), std::move(state));
     const int exitCode = viewer.run();
-    if (memory.file && options.uiCost == 0 && options.frames == 0)
-        savePreferences(*memory.file, viewer.preferences());
+    if (memory.file && options.uiCost == 0 && options.frames == 0) {
+        Preferences kept = viewer.preferences();
+        std::erase_if(kept.bookmarks, [](const auto& scene) { return scene.second.empty(); });
+        savePreferences(*memory.file, kept);
+    }
     return exitCode;
 }
 

@@ -75,8 +75,11 @@ void perform(ViewState& state, const Command& command) {
     case Action::Brighter: return changeExposure(state, 0.5f);
     case Action::Darker: return changeExposure(state, -0.5f);
     case Action::TogglePause:
-        if (state.frozen)
-            return toggleFreeze(state);
+        if (state.frozen) {
+            toggleFreeze(state);
+            time.paused = false;
+            return;
+        }
         return togglePause(time);
     case Action::StepOnce:
         if (state.frozen)

@@ -74,13 +74,17 @@ Camera cameraOf(const CameraBookmark& place, const Camera& like) {
     return camera;
 }
 
-// Where a camera path and cuts lead: the places remembered, or a sway around the scene's camera.
-std::vector<Camera> stations(ViewState& state) {
-    std::vector<Camera> places;
-    for (const CameraBookmark& place : bookmarks(state))
-        places.push_back(cameraOf(place, state.home));
-    if (places.size() < 2)
+// Where a camera path and cuts lead: the places remembered, with the scene's camera where there is
+// but one; or a sway around it.
+std::vector<Camera> stations(const ViewState& state) {
+    const auto found = state.preferences.bookmarks.find(state.sceneName);
+    if (found == state.preferences.bookmarks.end() || found->second.empty())
         return swayAround(state.home, 0.35f * state.extent);
+    std::vector<Camera> places;
+    if (found->second.size() == 1)
+        places.push_back(state.home);
+    for (const CameraBookmark& place : found->second)
+        places.push_back(cameraOf(place, state.home));
     return places;
 }
 
@@ -174,13 +178,11 @@ void chooseCamera(ViewState& state, const Scene& scene, std::size_t index) {
 
 void cutCamera(ViewState& state) {
     const std::vector<Camera> places = stations(state);
-    // The one after the place where the camera is; from anywhere else, the first that it is not at.
+    // The one after the place where the camera is; from anywhere else, the first.
     std::size_t next = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (sameView(places[i], state.camera))
             next = (i + 1) % places.size();
-    if (next == 0 && bookmarks(state).size() < 2 && sameView(state.camera, state.home))
-        next = 1;
     state.camera = places[next];
     state.onPath = false;
     state.cutPending = true;
@@ -250,11 +252,12 @@ void clearProbes(ViewState& state) {
 void toggleFreeze(ViewState& state) {
     state.frozen = !state.frozen;
     if (state.frozen) {
+        state.pausedBefore = state.time.paused;
         state.time.paused = true;
         state.time.stepsLeft = 0;
         return show(state, Shown::Kind::Oracle, std::size_t(OracleImage::Error));
     }
-    state.time.paused = false;
+    state.time.paused = state.pausedBefore;
     if (state.shown.kind == Shown::Kind::Oracle)
         show(state, Shown::Kind::Picture);
 }

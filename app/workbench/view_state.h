@@ -116,6 +116,7 @@ struct ViewState {
     std::optional<PanePixel> hovered;   ///< under the mouse
     std::optional<PanePixel> inspected; ///< pinned
     bool frozen = false; ///< the moment is held and its reference converges; nothing is rendered
+    bool pausedBefore = false; ///< whether time stood still before that
     int oracleSamples = 1024; ///< a pixel, of the reference
     int recordFrames = 0;     ///< after which a recording ends; 0: when it is told to
     std::optional<std::size_t> tourStop;
@@ -146,7 +147,7 @@ void changeExposure(ViewState& state, float stops);   ///< stays in the field's 
 void toggleAnimation(ViewState& state);
 void goHome(ViewState& state);
 void chooseCamera(ViewState& state, const Scene& scene, std::size_t index);
-/// To the next of the bookmarks, or of home and a view from the side if there are none.
+/// To the next of the bookmarks (of home and the one, if there is one), or of views around home.
 void cutCamera(ViewState& state);
 std::vector<CameraBookmark>& bookmarks(ViewState& state); ///< of this scene
 void addBookmark(ViewState& state);                       ///< at most kBookmarks

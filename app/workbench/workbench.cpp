@@ -157,8 +157,7 @@ void Workbench::Impl::followFreeze() {
         return;
     }
     if (!now) { // nothing has been rendered that could be held
-        state.frozen = false;
-        return show(state, Shown::Kind::Picture);
+        return toggleFreeze(state);
     }
     if (!oracle.isActive()) {
         OracleView::Moment moment{.now = {.camera = now->camera,

@@ -71,7 +71,8 @@ WindowSession::WindowSession(const std::vector<std::string>& words, const Window
     program_.emplace(all, run_, display_.name(), "../afterglow.log", -1,
                      std::map<std::string, std::string>{{"XDG_CONFIG_HOME", config_.string()}});
     try {
-        window_ = display_.windowTitled("Afterglow", 30.0, &*program_);
+        // The title tells the time of a frame once there is one: before, keys may have no effect.
+        window_ = display_.windowTitled("Afterglow.* ms", 30.0, &*program_);
         moveTo({60, 60});
         act({"windowfocus", window_});
     } catch (const std::exception& error) {
