@@ -87,9 +87,10 @@ picture two-up cornell t t frames:30 l frames:4
 picture four-up hall t t t frames:24 l frames:3
 picture difference cornell T frames:30 l frames:3
 picture inspector cornell F2 frames:30 l frames:1 move:1000,430 ctrl+i wait:1
-picture passes hall F3 frames:16 period period period period period period period period period period wait:2
+# The light goes out in the frame whose passes are looked at, up to the last iteration of the gradient.
+picture passes hall F3 frames:16 l $(printf 'period %.0s' $(seq 19)) wait:4
 picture lambda cornell frames:20 2 frames:1 v v v v v v v v v v v v v v v v v v v
-picture oracle cornell frames:30 1 frames:1 u wait:60
+picture oracle cornell minus minus frames:30 1 frames:1 u wait:90 U U U U U
 picture presets cornell frames:20 F7 wait:1
 picture tour cornell F6 wait:2 Next Next Next Next Next p frames:50
 picture keys cornell frames:10 F1 wait:1

@@ -118,6 +118,12 @@ void recordRow(const PanelContext& panel) {
         perform(state, {Action::RecordFrames});
     tooltip("F9. Writes every frame as PNG into a folder of its own, and a film of them where "
             "there is ffmpeg.");
+    rowLabel("Ends after");
+    ImGui::DragInt("##frames", &state.recordFrames, 0.5f, 0, 100000,
+                   state.recordFrames > 0 ? "%d frames" : "when it is told to",
+                   ImGuiSliderFlags_AlwaysClamp);
+    tooltip("Frames of the next recording. Drag, or ctrl-click to type; 0: until F9 is pressed "
+            "again.");
     if (recorder.isEncoding()) {
         ImGui::PushFont(panel.fonts.small);
         dimText("ffmpeg makes a film of the frames ...");

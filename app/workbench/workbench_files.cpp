@@ -94,8 +94,6 @@ Image<glm::u8vec4> Workbench::Impl::composedView() {
 }
 
 void Workbench::Impl::saveImage(const std::string& stem) {
-    if (!now)
-        return;
     const Image<glm::u8vec4> view = composedView();
     if (view.pixels().empty())
         return notify(state, "There is no picture before the next frame", true);

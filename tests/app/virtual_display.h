@@ -53,8 +53,8 @@ public:
     void act(std::initializer_list<std::string> words) const;
     void act(const std::vector<std::string>& words) const;
     std::string ask(const std::vector<std::string>& words) const; ///< and what it says
-    /// The id of the one window whose title begins so, waiting for it as long as the program, if
-    /// one is given, runs.
+    /// The id of the one window whose title begins with this regular expression, waiting for it as
+    /// long as the program, if one is given, runs.
     std::string windowTitled(const std::string& title, double seconds = 20.0,
                              Process* program = nullptr) const;
 
