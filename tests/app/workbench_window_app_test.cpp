@@ -3,6 +3,7 @@
 
 #include "program.h"
 #include "renderer/image/image_io.h"
+#include "tests/support/source_dir.h"
 #include "window_session.h"
 
 #include <algorithm>
@@ -169,7 +170,7 @@ TEST_CASE(
     "a broken shader is told with file and line, the last good one stays, a mended one counts") {
     const TemporaryFolder folder;
     const auto shaders = folder.path() / "shaders";
-    std::filesystem::copy(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders", shaders,
+    std::filesystem::copy(sourceDir() / "shaders", shaders,
                           std::filesystem::copy_options::recursive);
     const auto file = shaders / "post" / "tonemap.comp";
     const std::string good = bytesOf(file);
@@ -210,7 +211,7 @@ TEST_CASE(
     "files dropped on the window are opened: a scene, an experiment, and one that is neither") {
     WindowSession session({"tiny"});
     session.keys({"F8"});
-    const std::filesystem::path source = AFTERGLOW_SOURCE_DIR;
+    const std::filesystem::path source = sourceDir();
     session.drop({source / "assets" / "scenes" / "spinner.glb"});
     session.waitUntil([&] { return session.title().find("spinner") != std::string::npos; },
                       "the title names the scene");

@@ -2,6 +2,7 @@
 // compiler: drivers accept different mistakes.
 
 #include "tests/support/gl_fixture.h"
+#include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
@@ -23,7 +24,7 @@ struct Variant {
 
 std::vector<Variant> allVariants() {
     std::vector<Variant> variants;
-    const std::filesystem::path root = std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders";
+    const std::filesystem::path root = sourceDir() / "shaders";
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
         const std::string extension = entry.path().extension();
         if (extension != ".comp" && extension != ".vert" && extension != ".frag")
@@ -51,8 +52,7 @@ std::vector<Variant> allVariants() {
 } // namespace
 
 TEST_CASE("every shader is valid GLSL 4.50 to the reference compiler") {
-    const ShaderSource source =
-        ShaderSource::fromDirectory(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders");
+    const ShaderSource source = ShaderSource::fromDirectory(sourceDir() / "shaders");
     const TemporaryFolder folder;
     REQUIRE_MESSAGE(std::system("glslangValidator --version > /dev/null 2>&1") == 0,
                     "glslangValidator is missing; third_party/install.sh --tests installs it");
@@ -73,8 +73,7 @@ TEST_CASE("every shader is valid GLSL 4.50 to the reference compiler") {
 TEST_CASE("every compute shader compiles in both ways of fetching textures") {
     const GlCheck noGlMessages;
     testContext();
-    ShaderLibrary library(
-        ShaderSource::fromDirectory(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders"));
+    ShaderLibrary library(ShaderSource::fromDirectory(sourceDir() / "shaders"));
     for (const Variant& variant : allVariants())
         if (variant.name.ends_with(".comp")) {
             CAPTURE(variant.name);

@@ -4,6 +4,7 @@
 #include "renderer/image/ssim.h"
 
 #include "tests/support/compare.h"
+#include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
 #include <cmath>
@@ -203,9 +204,9 @@ private:
     void run() {
         // Debian's python, whatever else is in the PATH, and nothing of the user's.
         const std::string log = (folder_ / "log.txt").string();
-        const int status = std::system(("/usr/bin/python3 -I -B '" AFTERGLOW_SOURCE_DIR
-                                        "/tests/oracle/metrics_oracle.py' '" +
-                                        folder_.path().string() + "' >'" + log + "' 2>&1")
+        const int status = std::system(("/usr/bin/python3 -I -B '" +
+                                        (sourceDir() / "tests/oracle/metrics_oracle.py").string() +
+                                        "' '" + folder_.path().string() + "' >'" + log + "' 2>&1")
                                            .c_str());
         std::ostringstream said;
         said << std::ifstream(log).rdbuf();

@@ -8,6 +8,7 @@
 #include "renderer/scene/procedural.h"
 #include "renderer/scene/scene_builder.h"
 #include "renderer/scene/shapes.h"
+#include "tests/support/source_dir.h"
 
 namespace afterglow::test {
 
@@ -156,8 +157,7 @@ Scene sceneNamed(std::string_view name) {
 }
 
 const reference::Random& randomOf(std::uint32_t runSeed) {
-    static const auto tile = reference::readTile(std::filesystem::path(AFTERGLOW_SOURCE_DIR) /
-                                                 "assets/noise/blue_noise_128.pgm");
+    static const auto tile = reference::readTile(sourceDir() / "assets/noise/blue_noise_128.pgm");
     static std::map<std::uint32_t, reference::Random> runs;
     return runs.try_emplace(runSeed, tile, runSeed).first->second;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/support/gl_fixture.h"
+#include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
 namespace afterglow::test {
@@ -39,9 +40,7 @@ public:
     }
 
 private:
-    static std::filesystem::path source() {
-        return std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders";
-    }
+    static std::filesystem::path source() { return sourceDir() / "shaders"; }
 
     TemporaryFolder folder_;
     std::filesystem::path root_ = folder_.path();

@@ -1,5 +1,6 @@
 #include "renderer/base/error.h"
 #include "renderer/image/blue_noise.h"
+#include "tests/support/source_dir.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ using namespace afterglow;
 namespace {
 
 std::string shippedTile() {
-    std::ifstream file(AFTERGLOW_SOURCE_DIR "/assets/noise/blue_noise_128.pgm", std::ios::binary);
+    std::ifstream file(sourceDir() / "assets/noise/blue_noise_128.pgm", std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

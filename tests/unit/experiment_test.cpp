@@ -4,6 +4,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/image/color.h"
+#include "tests/support/source_dir.h"
 
 #include <filesystem>
 #include <string>
@@ -246,7 +247,7 @@ TEST_CASE("what is not JSON is refused by its line") {
 }
 
 TEST_CASE("the experiments in the program are the files of assets/experiments") {
-    const std::filesystem::path folder = AFTERGLOW_SOURCE_DIR "/assets/experiments";
+    const std::filesystem::path folder = sourceDir() / "assets/experiments";
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().stem().string();

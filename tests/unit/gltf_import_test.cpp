@@ -3,6 +3,7 @@
 #include "renderer/base/log.h"
 #include "renderer/scene/gltf_import.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
 #include <cmath>
@@ -215,8 +216,7 @@ TEST_CASE("only the scene that is shown is imported, and a library without scene
 }
 
 TEST_CASE("the example scenes of the project can be imported") {
-    const std::filesystem::path folder =
-        std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "assets/scenes";
+    const std::filesystem::path folder = sourceDir() / "assets/scenes";
     const Scene cornell = importGltf(folder / "cornell.gltf");
     REQUIRE(cornell.lights.size() == 2);
     CHECK(cornell.lights[0].name == "key");

@@ -4,6 +4,7 @@
 #include "app/workbench/preset_store.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/denoise_plan.h"
+#include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ std::vector<std::string> namesIn(const PresetStore& store, bool builtIn) {
 TEST_CASE("the presets in the program are the files of assets/presets, each with its source") {
     std::size_t files = 0;
     for (const auto& entry :
-         std::filesystem::directory_iterator(AFTERGLOW_SOURCE_DIR "/assets/presets")) {
+         std::filesystem::directory_iterator(sourceDir() / "assets/presets")) {
         const std::string name = entry.path().stem().string();
         CAPTURE(name);
         ++files;

@@ -2,6 +2,7 @@
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/procedural.h"
 #include "renderer/scene/shapes.h"
+#include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
 #include <algorithm>
@@ -383,7 +384,7 @@ TEST_CASE("a camera below scaled, mirrored and turned nodes keeps its direction 
 
 TEST_CASE("a scene is found by its name or its path, and a wrong name gets advice") {
     CHECK(loadScene("tiny").name == "tiny");
-    const std::string path = std::string(AFTERGLOW_SOURCE_DIR) + "/assets/scenes/cornell.gltf";
+    const std::string path = (sourceDir() / "assets/scenes/cornell.gltf").string();
     CHECK(loadScene(path).name == "cornell");
     CHECK(messageOf<UsageError>([] { loadScene("cornel"); }) ==
           "no scene or file named 'cornel'; did you mean 'cornell'? (known: hall, cornell, rooms, "

@@ -1,6 +1,7 @@
 #include "renderer/base/error.h"
 #include "renderer/gl/embedded_shaders.h"
 #include "renderer/gl/shader_source.h"
+#include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
 #include <cstdlib>
@@ -129,7 +130,7 @@ TEST_CASE("a compiler's message is led back to its file, whichever driver wrote 
 }
 
 TEST_CASE("the executable carries every shader, byte by byte, and nothing else") {
-    const std::filesystem::path root = std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders";
+    const std::filesystem::path root = sourceDir() / "shaders";
     const std::set<std::string> kinds{".comp", ".vert", ".frag", ".glsl", ".h"};
     std::set<std::string> onDisk, carried;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
@@ -152,7 +153,7 @@ TEST_CASE("the executable carries every shader, byte by byte, and nothing else")
 
 TEST_CASE("every shader expands to the same text from the executable as from the source folder") {
     const ShaderSource folder =
-        ShaderSource::fromDirectory(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders");
+        ShaderSource::fromDirectory(sourceDir() / "shaders");
     for (const EmbeddedFile& file : embeddedFiles()) {
         if (!file.name.ends_with(".comp") && !file.name.ends_with(".vert") &&
             !file.name.ends_with(".frag"))
