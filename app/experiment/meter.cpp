@@ -9,28 +9,11 @@
 namespace afterglow {
 namespace {
 
-Image<float> channelOf(const Renderer& renderer, std::string_view aov) {
-    const Image<glm::vec4> image = readAov(renderer, aovByName(aov));
-    Image<float> result(image.size());
-    std::ranges::transform(image.pixels(), result.pixels().begin(),
-                           [](const glm::vec4& c) { return c.x; });
-    return result;
-}
-
-Image<float> alphaOf(const Image<glm::vec4>& image) {
-    Image<float> result(image.size());
-    std::ranges::transform(image.pixels(), result.pixels().begin(),
-                           [](const glm::vec4& c) { return c.a; });
-    return result;
-}
-
 /// Of the history that was fetched at each pixel: the temporal pass leaves it in the alpha of its
 /// blend, which is the history itself where nothing is fed back from the spatial filter.
-Image<float> historyLuminance(const Renderer& renderer, const Settings& settings) {
-    const FilterTargets& t = renderer.targets().filters[0];
-    const DenoisePlan plan = makePlan(settings.filter, settings.denoiser);
+Image<float> historyLuminance(const FilterTargets& t, const DenoisePlan& plan) {
     const GpuTexture& blend = plan.feedbackIteration == 0 ? t.color.current() : t.accumulated;
-    return alphaOf(blend.read<glm::vec4>());
+    return channelOf(blend.read<glm::vec4>(), 3);
 }
 
 Image<glm::vec4> unitRange(const Image<glm::u8vec4>& image) {
@@ -40,39 +23,24 @@ Image<glm::vec4> unitRange(const Image<glm::u8vec4>& image) {
     return result;
 }
 
-Mask both(const Mask& a, const Mask& b) {
-    Mask result = a;
-    for (std::size_t i = 0; i < result.pixels().size(); ++i)
-        result.pixels()[i] &= b.pixels()[i];
-    return result;
-}
-
-/// 0 where the mask is.
-Image<float> within(Image<float> image, const Mask& mask) {
-    for (std::size_t i = 0; i < image.pixels().size(); ++i)
-        if (mask.pixels()[i] == 0)
-            image.pixels()[i] = 0.0f;
-    return image;
-}
-
 } // namespace
 
-FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl) {
+FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl,
+                      std::size_t state) {
+    const FilterTargets& own = renderer.targets().filters.at(state);
     FrameImages images;
-    images.lit = litRadiance(renderer);
-    images.display = renderer.targets().filters[0].display.read<glm::u8vec4>();
-    const auto made = [&](std::string_view aov) {
-        return withControl && isMadeBy(aovByName(aov), settings.filter, settings.denoiser);
-    };
-    if (made("lambda_strata"))
-        images.lambda = channelOf(renderer, "lambda_strata");
-    if (made("alpha")) {
-        images.alpha = channelOf(renderer, "alpha");
-        images.history = historyLuminance(renderer, settings);
-        const Image<float> reason = channelOf(renderer, "reason");
+    images.lit = litRadiance(renderer, state);
+    images.display = own.display.read<glm::u8vec4>();
+    const DenoisePlan plan = makePlan(settings.filter, settings.denoiser);
+    if (withControl && plan.useLambda)
+        images.lambda = own.lambda.read<float>();
+    if (withControl && plan.accumulate) {
+        const auto control = own.control.read<glm::vec4>();
+        images.alpha = channelOf(control, 1);
+        images.history = historyLuminance(own, plan);
         images.hasHistory = foregroundOf(renderer);
-        for (std::size_t i = 0; i < reason.pixels().size(); ++i)
-            if (reason.pixels()[i] != 0.0f)
+        for (std::size_t i = 0; i < control.pixels().size(); ++i)
+            if (control.pixels()[i].w != float(gpu::kHistoryKept))
                 images.hasHistory.pixels()[i] = 0;
     }
     return images;

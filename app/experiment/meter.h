@@ -18,8 +18,10 @@ struct FrameImages {
     Image<float> history; ///< luminance of the history that was fetched
     Mask hasHistory{};
 };
-/// Of the last frame that was rendered; what is for the oracles only if `withControl`.
-FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl);
+/// Of the last frame that was rendered, by the filter with this state; what is for the oracles only
+/// if `withControl`.
+FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl,
+                      std::size_t state = 0);
 
 /// Images in [0, 1] that explain a frame: "error" (FLIP), "lambda", "lambda_ideal", "alpha",
 /// "alpha_ideal", as far as they are there.

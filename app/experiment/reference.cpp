@@ -85,8 +85,8 @@ Mask foregroundOf(const Renderer& renderer) {
     return mask;
 }
 
-Image<glm::vec4> litRadiance(const Renderer& renderer) {
-    auto lit = renderer.filteredSignal().read<glm::vec4>();
+Image<glm::vec4> litRadiance(const Renderer& renderer, std::size_t state) {
+    auto lit = renderer.filteredSignal(state).read<glm::vec4>();
     const auto albedo = renderer.targets().albedo.read<glm::vec4>();
     for (std::size_t i = 0; i < lit.pixels().size(); ++i)
         lit.pixels()[i] =

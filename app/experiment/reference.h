@@ -15,7 +15,12 @@ Mask foregroundOf(const Renderer& renderer);
 /// The light that surfaces reflect towards the viewer: the filtered signal times albedo, linear;
 /// alpha is 0. Without emission, which no filter touches: a light that is seen directly is so much
 /// brighter than all it shines on that its going out would be all there is to measure.
-Image<glm::vec4> litRadiance(const Renderer& renderer);
+Image<glm::vec4> litRadiance(const Renderer& renderer, std::size_t state = 0);
+
+/// References draw other random numbers than the frames of the seed that are compared with them.
+constexpr std::uint32_t referenceSeed(std::uint32_t seed) {
+    return seed ^ 0x9e3779b9u;
+}
 
 /// Averages so many samples a pixel, at least 1, of the surfaces of `seen` in the light of `world`:
 /// see Renderer::beginReference(). Afterwards the renderer shows it; its histories are void.

@@ -7,19 +7,6 @@
 #include <set>
 
 namespace afterglow {
-namespace {
-
-// References draw other random numbers than the frames that are compared with them.
-constexpr std::uint32_t kReferenceSeed = 0x9e3779b9u;
-
-Image<float> alphaOf(const Image<glm::vec4>& image) {
-    Image<float> result(image.size());
-    std::ranges::transform(image.pixels(), result.pixels().begin(),
-                           [](const glm::vec4& c) { return c.a; });
-    return result;
-}
-
-} // namespace
 
 Truths::Truths(const Experiment& experiment, const RunPlan& plan)
     : experiment_(experiment), plan_(plan), truths_(plan.moments.size()) {}
@@ -38,7 +25,7 @@ FrameInput Truths::inputAt(int frame) const {
 }
 
 FrameInput Truths::referenceInput(const Moment& moment) const {
-    return input(moment.first, moment, experiment_.seed ^ kReferenceSeed);
+    return input(moment.first, moment, referenceSeed(experiment_.seed));
 }
 
 std::vector<std::size_t> Truths::neededFor(FrameRange range) const {
@@ -82,7 +69,7 @@ void Truths::make(Renderer& renderer, ReferenceStore& store, FrameRange range,
             truth.foreground = foregroundOf(renderer);
             truth.lit = litRadiance(renderer);
             truth.luminance = luminanceOf(reference.signal);
-            truth.variance = alphaOf(reference.signal);
+            truth.variance = channelOf(reference.signal, 3);
             truth.residual = reference.residual;
             truth.milliseconds = reference.milliseconds;
             truth.litLater = litStrata(truth.luminance, truth.luminance, truth.foreground,

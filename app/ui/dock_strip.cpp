@@ -12,8 +12,6 @@
 namespace afterglow {
 namespace {
 
-const ImVec4 kRecord = color::rgb(0xc8544f);
-
 void act(const PanelContext& panel, const char* label, Action action, bool possible, bool lit,
          float width, const char* help) {
     ImGui::SameLine(0.0f, 0.3f * em());
@@ -78,7 +76,7 @@ std::string joined(const std::vector<std::string>& marks) {
 void drawMark(ImDrawList& draw, const Rail& rail, float x, const std::vector<std::string>& marks,
               bool step, float& right) {
     const float s = 0.34f * em(), y = rail.bar.min.y + 0.5f * rail.bar.size.y;
-    const ImVec4 tint = step ? color::kAccent : color::rgb(0x6aa9e9);
+    const ImVec4 tint = step ? color::kAccent : color::kPanes[1];
     draw.AddQuadFilled({x, y - s}, {x + s, y}, {x, y + s}, {x - s, y}, packed(tint));
     const std::string text = joined(marks);
     // Beside the diamond, or before the right end.
@@ -114,9 +112,10 @@ std::optional<std::string> drawPast(const PanelContext& panel, Rail rail,
     if (time.recording) {
         const std::size_t recorded = std::min(time.recording->frames.size(), count);
         const float x = rail.x(count - recorded);
-        draw.AddRectFilled({x, rail.bar.min.y}, rail.bar.end(), faded(packed(kRecord), 0.55f));
+        draw.AddRectFilled({x, rail.bar.min.y}, rail.bar.end(),
+                           faded(packed(color::kRecording), 0.55f));
         draw.AddRectFilled({x - 1.0f, rail.bar.min.y - 2.0f}, {x + 1.0f, rail.bar.end().y + 2.0f},
-                           packed(kRecord));
+                           packed(color::kRecording));
     }
     for (std::size_t i = 0; i < count; ++i) {
         drawTicks(draw, rail, i, time.past[first + i].frame);

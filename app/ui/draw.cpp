@@ -19,6 +19,13 @@ ImVec2 inUnits(const PanelContext& panel, glm::vec2 position) {
     return {position.x * panel.scale, position.y * panel.scale};
 }
 
+UiRect inUnits(const PanelContext& panel, const PanePlace& place, const Probe& box) {
+    const glm::ivec2 image = panel.bench.imageSize();
+    const ImVec2 low = inUnits(panel, positionOf(place, glm::vec2(box.min), image));
+    const ImVec2 high = inUnits(panel, positionOf(place, glm::vec2(box.min + box.size), image));
+    return {low, {high.x - low.x, high.y - low.y}};
+}
+
 ImU32 faded(ImU32 color, float alpha) {
     ImVec4 parts = ImGui::ColorConvertU32ToFloat4(color);
     parts.w *= alpha;

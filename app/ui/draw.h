@@ -21,6 +21,8 @@ struct UiRect {
 };
 UiRect inUnits(const PanelContext& panel, const Rect& rect);
 ImVec2 inUnits(const PanelContext& panel, glm::vec2 position);
+/// A box of pixels of the rendered image, in a pane.
+UiRect inUnits(const PanelContext& panel, const PanePlace& place, const Probe& box);
 
 ImU32 faded(ImU32 color, float alpha); ///< its own alpha times `alpha`
 
@@ -44,7 +46,7 @@ float letterSize();
 void drawEdge(ImVec2 from, ImVec2 to);
 
 enum class Icon { Pause, Play, Step };
-/// A square button as high as others.
+/// A button as high as others and a little wider than that.
 bool iconButton(const char* id, Icon icon, bool lit);
 
 /// Text whose right end is there.

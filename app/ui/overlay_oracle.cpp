@@ -79,7 +79,7 @@ void overlayOracle(const PanelContext& panel) {
     const float width = std::min(27.0f * em(), view.size.x - 2.0f * em());
     ImGui::SetNextWindowPos({view.min.x + 0.5f * view.size.x, topFor(panel, view)},
                             ImGuiCond_Always, {0.5f, 0.0f});
-    const bool isDone = panel.bench.oracle().isActive() && panel.bench.oracle().isDone();
+    const bool isDone = panel.bench.oracle().isDone();
     ImGui::SetNextWindowSize({isDone ? 0.0f : width, 0.0f});
     ImGui::SetNextWindowBgAlpha(0.88f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em());
@@ -94,8 +94,8 @@ void overlayOracle(const PanelContext& panel) {
         ImGui::TextUnformatted(frame.c_str());
         results(panel);
     } else {
-        const int samples = panel.state.oracleSamples;
-        const double progress = oracle.isActive() ? oracle.progress() : 0.0;
+        const int samples = oracle.samples();
+        const double progress = oracle.progress();
         ImGui::TextUnformatted((frame + formatted(": reference %d of %d samples",
                                                   int(std::floor(progress * samples)), samples))
                                    .c_str());

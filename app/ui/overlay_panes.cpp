@@ -13,24 +13,11 @@
 namespace afterglow {
 namespace {
 
-constexpr float kGround = 0.74f; // alpha of what lies behind a label
-
-// Whether the filter of a pane that is shown carries gradient samples.
-bool carriesSamples(const Settings& settings) {
-    return makePlan(settings.filter, settings.denoiser).carrySamples;
-}
-
 // How gradient samples change what this pane sees; empty where they do not.
 std::string_view placementNote(const Panes& panes, std::size_t pane) {
     const Settings& settings = panes.all[pane].settings;
-    const auto shown = shownPanes(panes);
-    const bool carried = std::ranges::any_of(
-        shown, [&](std::size_t i) { return carriesSamples(panes.all[i].settings); });
-    const bool merged =
-        SamplePlacement(panes.all[shown.front()].settings.lighting.gradientSamples) ==
-        SamplePlacement::Merged;
-    if (merged)
-        return carried ? "merged samples" : "";
+    if (SamplePlacement(settings.lighting.gradientSamples) == SamplePlacement::Merged)
+        return carriesSamples(panes) ? "merged samples" : "";
     return carriesSamples(settings) ? "extra samples" : "";
 }
 
@@ -78,8 +65,7 @@ void drawLabel(const PanelContext& panel, const Label& label, ImVec2 at, float r
 
     const float height = letter + 2.0f * pad;
     const float width = first + titleWidth + detailsWidth + (title.empty() ? pad : 1.6f * pad);
-    draw.AddRectFilled(at, {at.x + width, at.y + height}, packed(color::rgb(0x0b0c0e, kGround)),
-                       0.4f * em());
+    draw.AddRectFilled(at, {at.x + width, at.y + height}, packed(color::kGround), 0.4f * em());
     float x = at.x + pad;
     const float y = at.y + pad, text = std::round(y + 0.5f * (letter - em()));
     for (std::size_t i = 0; i < label.letters.size(); ++i) {
@@ -102,7 +88,7 @@ void drawLabel(const PanelContext& panel, const Label& label, ImVec2 at, float r
     if (!note.empty()) {
         const ImVec2 below{at.x, at.y + height + 0.3f * em()};
         draw.AddRectFilled(below, {below.x + widthOf(note) + 2.0f * gap, below.y + 1.6f * em()},
-                           packed(color::rgb(0x0b0c0e, kGround)), 0.4f * em());
+                           packed(color::kGround), 0.4f * em());
         draw.AddText({below.x + gap, std::round(below.y + 0.3f * em())}, packed(color::kAccent),
                      note.c_str());
     }
@@ -124,15 +110,8 @@ void markActive(const PanelContext& panel, const PanePlace& place) {
 }
 
 void drawDivider(const PanelContext& panel) {
-    const UiFrame& frame = panel.frame;
-    const UiRect picture = inUnits(panel, frame.places[0].picture);
-    const ImVec2 mouse = ImGui::GetMousePos();
-    const glm::vec2 position{mouse.x / panel.scale, mouse.y / panel.scale};
-    const float reach = PointerInput{}.reach;
-    const bool held = frame.pointer.holds == Pointer::Holds::Divider;
-    const bool near = held || (!ImGui::GetIO().WantCaptureMouse &&
-                               frame.pointer.holds == Pointer::Holds::Nothing &&
-                               isOnDivider(panel.state.panes, frame.places, position, reach));
+    const UiRect picture = inUnits(panel, panel.frame.places[0].picture);
+    const bool near = panel.frame.pointer.onDivider;
     if (near)
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 

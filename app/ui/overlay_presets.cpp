@@ -3,7 +3,6 @@
 #include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
-#include "renderer/base/error.h"
 
 #include <algorithm>
 
@@ -112,12 +111,7 @@ void removeButton(const PanelContext& panel, const std::string& name, float widt
         return;
     ImGui::TextUnformatted(("Remove the preset " + name + "?").c_str());
     if (litButton("Remove it", true, 6.5f * em(), color::kError)) {
-        try {
-            panel.bench.presets().remove(name);
-            notify(panel.state, "Removed the preset " + name);
-        } catch (const Error& error) {
-            notify(panel.state, error.what(), true);
-        }
+        panel.state.wanted.removePreset = name;
         ImGui::CloseCurrentPopup();
     }
     ImGui::SameLine();

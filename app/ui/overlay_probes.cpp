@@ -3,6 +3,7 @@
 #include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/ui/theme.h"
+#include "shared/bindings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +13,7 @@ namespace afterglow {
 namespace {
 
 constexpr float kLeastBox = 0.7f; // em; what is smaller on the screen gets a ring around it
-constexpr int kStratum = 3;       // pixels along each edge
-
-/// A box of pixels on the screen.
-UiRect onScreen(const PanelContext& panel, const PanePlace& place, glm::ivec2 min, glm::ivec2 size,
-                glm::ivec2 image) {
-    const ImVec2 low = inUnits(panel, positionOf(place, glm::vec2(min), image));
-    const ImVec2 high = inUnits(panel, positionOf(place, glm::vec2(min + size), image));
-    return {low, {high.x - low.x, high.y - low.y}};
-}
+constexpr int kStratum = int(gpu::kStratumSize);
 
 // Light lines on a dark one are seen on every ground.
 void outline(ImDrawList& draw, const UiRect& box, ImU32 tint, float thick) {
@@ -60,7 +53,7 @@ void name(ImDrawList& draw, const UiRect& shown, const UiRect& box, std::size_t 
         return;
     const ImVec2 low{at.x + size + gap, at.y};
     draw.AddRectFilled(low, {low.x + widthOf(more) + 2.0f * gap, low.y + size},
-                       packed(color::rgb(0x0b0c0e, 0.74f)), 0.25f * em());
+                       packed(color::kGround), 0.25f * em());
     draw.AddText({low.x + gap, std::round(low.y + 0.5f * (size - em()))}, packed(color::kText),
                  more.c_str());
 }
@@ -69,7 +62,7 @@ void drawProbe(const PanelContext& panel, const PanePlace& place, const Probe& p
                std::size_t index, bool dragged) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const UiRect shown = inUnits(panel, place.shown);
-    const UiRect box = onScreen(panel, place, probe.min, probe.size, panel.bench.imageSize());
+    const UiRect box = inUnits(panel, place, probe);
     const float thick = index == panel.state.activeProbe ? 2.0f : 1.2f;
     const float reach = 1.5f * em();
     if (box.end().x + reach < shown.min.x || box.min.x - reach > shown.end().x)
@@ -90,10 +83,10 @@ void drawInspected(const PanelContext& panel, const PanePlace& place, glm::ivec2
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const glm::ivec2 image = panel.bench.imageSize();
     const UiRect shown = inUnits(panel, place.shown);
-    const UiRect one = onScreen(panel, place, pixel, glm::ivec2(1), image);
+    const UiRect one = inUnits(panel, place, Probe{pixel, glm::ivec2(1)});
     const glm::ivec2 first = pixel / kStratum * kStratum;
     const UiRect stratum =
-        onScreen(panel, place, first, glm::min(glm::ivec2(kStratum), image - first), image);
+        inUnits(panel, place, Probe{first, glm::min(glm::ivec2(kStratum), image - first)});
     draw.PushClipRect(shown.min, shown.end(), true);
     if (stratum.size.x >= 0.4f * em()) {
         outline(draw, stratum, packed(color::rgb(0xffffff, 0.75f)), 1.0f);

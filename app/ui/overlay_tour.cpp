@@ -52,8 +52,8 @@ void buttons(ViewState& state, std::size_t count) {
     ImGui::SameLine(0.0f, gap);
     const bool last = stop + 1 >= count;
     if (litButton(last ? "Done###next" : "Next###next", true, width))
-        perform(state, {last ? Action::ToggleTour : Action::NextStop});
-    tooltip(last ? "Esc. The tour ends here." : "Page down");
+        perform(state, {Action::NextStop});
+    tooltip(last ? "Page down. The tour ends here." : "Page down");
 }
 
 // What the card takes, before it has been drawn.
@@ -74,10 +74,8 @@ bool coversProbe(const PanelContext& panel, ImVec2 low, ImVec2 size) {
         for (const PanePlace& place : panel.frame.places) {
             if (!placed)
                 continue;
-            const Probe probe = rescaled(placed->probe, placed->image, image);
-            const ImVec2 from = inUnits(panel, positionOf(place, glm::vec2(probe.min), image));
-            const ImVec2 to =
-                inUnits(panel, positionOf(place, glm::vec2(probe.min + probe.size), image));
+            const UiRect box = inUnits(panel, place, rescaled(placed->probe, placed->image, image));
+            const ImVec2 from = box.min, to = box.end();
             if (from.x < low.x + size.x && to.x > low.x && from.y < low.y + size.y && to.y > low.y)
                 return true;
         }
@@ -99,7 +97,7 @@ ImVec2 cardPlace(const PanelContext& panel, const UiRect& view, ImVec2 size) {
 
 void overlayTour(const PanelContext& panel) {
     ViewState& state = panel.state;
-    const auto stops = panel.frame.tour;
+    const std::vector<TourStop>& stops = tourStops();
     if (!state.tourStop || *state.tourStop >= stops.size())
         return;
     const TourStop& stop = stops[*state.tourStop];

@@ -145,9 +145,9 @@ void oracle(ViewState& state) {
         toggleFreeze(state);
     tooltip("U. Holds this moment and converges its reference, with which the picture, lambda and "
             "alpha can be compared. The histories stay as they are.");
+    chooseSamples(state);
     if (!state.frozen)
         return;
-    chooseSamples(state);
     const float gap = 0.3f * em(), width = shareOf(3, gap);
     for (std::size_t i = 0; i < kOracleImages; ++i) {
         if (i % 3 != 0)

@@ -5,6 +5,7 @@
 #include "app/ui/theme.h"
 #include "app/ui/widgets.h"
 #include "app/workbench/inspection.h"
+#include "shared/bindings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace afterglow {
 namespace {
 
 constexpr int kMagnified = 15; // pixels along each edge of the magnifier
-constexpr int kStratum = 3;
+constexpr int kStratum = int(gpu::kStratumSize);
 
 void heading(const PanelContext& panel, const std::string& text) {
     ImGui::Dummy({0.0f, 0.15f * em()});

@@ -26,7 +26,7 @@ inline const ImVec4 kFill = rgb(0x56412b); ///< of a slider up to its value
 inline const ImVec4 kOnFill = rgb(0xf2c590);
 inline const ImVec4 kOnAccent = rgb(0x1a120a);
 inline const ImVec4 kError = rgb(0xe06c6c);
-inline const ImVec4 kGood = rgb(0x8fcf8a);
+inline const ImVec4 kGround = rgb(0x0b0c0e, 0.74f); ///< behind letters on a picture
 inline const ImVec4 kRecording = rgb(0xe05656);
 /// By pane and by probe: what stands for one has its color everywhere; see paneColor().
 inline const ImVec4 kPanes[4] = {rgb(0xe9a15b), rgb(0x6aa9e9), rgb(0x8fcf8a), rgb(0xd58ad0)};

@@ -1,5 +1,6 @@
 #include "app/ui/ui.h"
 
+#include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/window/window.h"
 
@@ -35,9 +36,9 @@ template <class Contents>
 void docked(const PanelContext& panel, const char* name, const Rect& where, Contents contents) {
     if (where.empty())
         return;
-    ImGui::SetNextWindowPos({float(where.min.x) * panel.scale, float(where.min.y) * panel.scale});
-    ImGui::SetNextWindowSize(
-        {float(where.size.x) * panel.scale, float(where.size.y) * panel.scale});
+    const UiRect rect = inUnits(panel, where);
+    ImGui::SetNextWindowPos(rect.min);
+    ImGui::SetNextWindowSize(rect.size);
     if (ImGui::Begin(name, nullptr, kDocked))
         contents();
     ImGui::End();

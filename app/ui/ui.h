@@ -20,7 +20,6 @@ struct UiFrame {
     Layout layout;                     ///< framebuffer pixels
     std::span<const PanePlace> places; ///< where the panes' pictures are
     const Pointer& pointer;
-    std::span<const TourStop> tour;
 };
 
 /// Panels and overlays by Dear ImGui. They hold no state that matters: everything is in the

@@ -1,5 +1,7 @@
 #include "app/commands/view.h"
 
+#include "app/experiment/experiment.h"
+#include "app/experiment/run_plan.h"
 #include "app/window/viewer.h"
 #include "renderer/base/error.h"
 #include "renderer/base/log.h"
@@ -31,7 +33,7 @@ Memory recall(bool reset) {
     return memory;
 }
 
-/// What is opened: a scene, and the experiment that is to be played in it, if it is one.
+/// The scene that is opened first, and whether an experiment is to be played in it.
 struct Opening {
     std::string name;
     Scene scene;
@@ -40,8 +42,10 @@ struct Opening {
 
 // The scene that was open last may be gone: that is no reason not to start.
 Opening openingFor(const ViewOptions& options, const Preferences& preferences) {
-    if (!options.scene.empty() && Workbench::isExperiment(options.scene))
-        return {options.scene, loadScene(kFirstScene), true};
+    if (!options.scene.empty() && Workbench::isExperiment(options.scene)) {
+        const Experiment experiment = loadExperiment(options.scene);
+        return {experiment.scene, planOf(experiment).scene, true};
+    }
     if (!options.scene.empty())
         return {options.scene, loadScene(options.scene), false};
     if (!preferences.lastScene.empty()) {
@@ -60,24 +64,18 @@ int runView(const ViewOptions& options) {
     // What was asked for is looked at before there is a window.
     Memory memory = recall(options.resetSettings);
     Opening opening = openingFor(options, memory.preferences);
-    if (opening.isExperiment)
-        Workbench::checkExperiment(opening.name);
     ViewState state = startState(opening.scene, options.settings, options.camera);
     state.preferences = std::move(memory.preferences);
-    state.sceneName = state.preferences.lastScene =
-        opening.isExperiment ? kFirstScene : opening.name;
+    state.sceneName = state.preferences.lastScene = opening.name;
     state.seed = options.seed;
     state.time.animate = options.animate;
     if (opening.isExperiment)
-        state.wanted.open = opening.name;
+        state.wanted.open = options.scene;
     Viewer viewer(options, std::move(opening.scene), std::move(state));
-    const int exitCode = viewer.run();
-    if (memory.file && options.uiCost == 0 && options.frames == 0) {
-        Preferences kept = viewer.preferences();
-        std::erase_if(kept.bookmarks, [](const auto& scene) { return scene.second.empty(); });
-        savePreferences(*memory.file, kept);
-    }
-    return exitCode;
+    viewer.run();
+    if (memory.file && options.uiCost == 0 && options.frames == 0)
+        savePreferences(*memory.file, viewer.preferences());
+    return 0;
 }
 
 } // namespace afterglow

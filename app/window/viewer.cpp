@@ -1,12 +1,12 @@
 #include "app/window/viewer.h"
 
-#include "renderer/base/error.h"
-#include "renderer/base/log.h"
+#include "app/experiment/output.h"
 #include "renderer/image/image_io.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 namespace afterglow {
 namespace {
@@ -26,11 +26,6 @@ WorkbenchFolders folders() {
             .presets = config ? *config / "presets" : std::filesystem::path()};
 }
 
-double medianOf(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values.empty() ? 0.0 : values[values.size() / 2];
-}
-
 } // namespace
 
 Viewer::Viewer(const ViewOptions& options, Scene scene, ViewState state)
@@ -38,8 +33,7 @@ Viewer::Viewer(const ViewOptions& options, Scene scene, ViewState state)
                                   .size = options.size.value_or(state.preferences.windowSize),
                                   .debugContext = options.debugContext}),
       gl_(glInfo(window_)), shaders_(makeShaderLibrary(gl_, options.shaders)),
-      workbench_(shaders_, gl_, std::move(scene), std::move(state), folders()), ui_(window_),
-      tour_(tourStops()) {
+      workbench_(shaders_, gl_, std::move(scene), std::move(state), folders()), ui_(window_) {
     ViewState& s = workbench_.state;
     const glm::ivec2 view = layoutOf(window_.framebufferSize(), ui_.wishes(s)).view.size;
     s.resolution = startResolution(gl_.softwareRasterizer, view);
@@ -51,14 +45,14 @@ bool Viewer::isLastFrame() const {
     return options_.frames > 0 && rendered_ >= options_.frames;
 }
 
-int Viewer::run() {
+void Viewer::run() {
     if (options_.uiCost > 0)
         return measureUiCost();
     Clock::time_point before = Clock::now();
-    bool idle = false;
+    double rest = 0.0; // seconds before the next round, unless something happens
     ViewState& state = workbench_.state;
     while (!state.quit && !window_.closeWanted()) {
-        const WindowInput input = idle ? window_.wait(kIdleSeconds) : window_.poll();
+        const WindowInput input = rest > 0.0 ? window_.wait(rest) : window_.poll();
         const double seconds = secondsSince(before);
         before = Clock::now();
         takeInput(input, seconds);
@@ -71,7 +65,7 @@ int Viewer::run() {
         const bool rendered =
             workbench_.advance(seconds, visible && !done ? layout.view.size : glm::ivec2(0));
         rendered_ += rendered;
-        idle = !rendered && !(state.frozen && !workbench_.oracle().isDone());
+        rest = visible ? std::min(workbench_.secondsUntilFrame(), kIdleSeconds) : kIdleSeconds;
         if (!visible)
             continue;
         drawWindow(framebuffer, layout);
@@ -84,7 +78,6 @@ int Viewer::run() {
         rememberWindow();
         tellTitle();
     }
-    return 0;
 }
 
 void Viewer::takeInput(const WindowInput& input, double seconds) {
@@ -172,16 +165,17 @@ void Viewer::serveRequests() {
 
 void Viewer::enterTourStop(std::size_t index) {
     ViewState& state = workbench_.state;
-    if (index >= tour_.size()) {
+    const std::vector<TourStop>& tour = tourStops();
+    if (index >= tour.size()) {
         state.tourStop.reset();
         state.preferences.tourDone = true;
         return;
     }
-    if (state.sceneName != tour_[index].scene || !workbench_.playsScene())
-        workbench_.open(tour_[index].scene);
+    if (state.sceneName != tour[index].scene || !workbench_.playsScene())
+        workbench_.open(tour[index].scene);
     const glm::ivec2 view = layoutOf(window_.framebufferSize(), ui_.wishes(state)).view.size;
     const glm::ivec2 image = renderSize(state.resolution, view);
-    enterStop(state, tour_[index], glm::max(image, glm::ivec2(1)));
+    enterStop(state, tour[index], glm::max(image, glm::ivec2(1)));
     state.tourStop = index;
 }
 
@@ -193,23 +187,9 @@ void Viewer::drawWindow(glm::ivec2 framebuffer, const Layout& layout) {
         if (const GpuTexture* const picture = workbench_.picture(place.pane))
             presenter_.draw(*picture, place.picture, place.shown, framebuffer,
                             state.preferences.smoothScaling);
-    ui_.draw(workbench_, {layout, places_, pointer_, tour_});
+    ui_.draw(workbench_, {layout, places_, pointer_});
     if (std::exchange(state.wanted.window, false))
-        saveWindow(framebuffer);
-}
-
-// A picture that cannot be written is no reason to end: the window says why.
-void Viewer::saveWindow(glm::ivec2 framebuffer) {
-    ViewState& state = workbench_.state;
-    const auto path = freePath(std::filesystem::current_path(), "afterglow", ".png");
-    try {
-        writePng(path, presenter_.readWindow(framebuffer));
-        notify(state, "Saved " + path.string());
-        log(LogLevel::Info, "saved " + path.string());
-    } catch (const Error& error) {
-        notify(state, error.what(), true);
-        log(LogLevel::Error, error.what());
-    }
+        workbench_.save(presenter_.readWindow(framebuffer));
 }
 
 void Viewer::rememberWindow() {
@@ -233,7 +213,7 @@ void Viewer::tellTitle() {
 
 // Frames alone, as headless, and frames in the window with all panels and a probe, in turns, on the
 // same scene and size.
-int Viewer::measureUiCost() {
+void Viewer::measureUiCost() {
     ViewState& state = workbench_.state;
     window_.waitForScreen(false);
     const glm::ivec2 framebuffer = window_.framebufferSize();
@@ -266,13 +246,12 @@ int Viewer::measureUiCost() {
                 (withWindow ? shown : alone).push_back(1000.0 * secondsSince(start));
         }
     }
-    const double without = medianOf(alone), with = medianOf(shown);
+    const double without = median(alone), with = median(shown);
     const glm::ivec2 size = workbench_.imageSize();
     std::printf("%s at %d x %d in a window of %d x %d: %.2f ms a frame alone, %.2f ms with the "
                 "interface, ratio %.3f\n",
                 workbench_.scene().name.c_str(), size.x, size.y, framebuffer.x, framebuffer.y,
                 without, with, with / without);
-    return 0;
 }
 
 } // namespace afterglow

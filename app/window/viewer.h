@@ -18,7 +18,7 @@ class Viewer {
 public:
     Viewer(const ViewOptions& options, Scene scene, ViewState state);
 
-    int run(); ///< until the window is closed; the exit code
+    void run(); ///< until the window is closed
     const Preferences& preferences() const { return workbench_.state.preferences; }
 
 private:
@@ -31,11 +31,10 @@ private:
     void serveRequests();
     void enterTourStop(std::size_t index);
     void drawWindow(glm::ivec2 framebuffer, const Layout& layout);
-    void saveWindow(glm::ivec2 framebuffer);
     void tellTitle();
     void rememberWindow();
     bool isLastFrame() const;
-    int measureUiCost();
+    void measureUiCost();
 
     const ViewOptions& options_;
     Window window_;
@@ -45,7 +44,6 @@ private:
     Presenter presenter_;
     Ui ui_;
     Pointer pointer_;
-    std::vector<TourStop> tour_;
 
     std::vector<PanePlace> places_; ///< of the last round
     bool looking_ = false;

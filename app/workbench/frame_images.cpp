@@ -62,10 +62,15 @@ std::vector<ImageDisplay> imageDisplays(float extent) {
     return displays;
 }
 
-gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const AovSource& source) {
+gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const AovSource& source,
+                                     glm::ivec2 picture) {
+    const glm::ivec2 texels = source.texture.size();
+    const int pixelsPerTexel = texels == picture             ? 1
+                               : texels == strataOf(picture) ? int(kStratumSize)
+                                                             : int(kTileSize);
     return {.map = display.map,
             .channel = source.channel,
-            .pixelsPerTexel = aovByName(display.name).perStratum ? int(kStratumSize) : 1,
+            .pixelsPerTexel = pixelsPerTexel,
             .isFloatBits = source.isFloatBits ? 1 : 0,
             .low = display.low,
             .high = display.high,

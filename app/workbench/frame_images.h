@@ -24,7 +24,9 @@ struct ImageDisplay {
 /// metres.
 std::vector<ImageDisplay> imageDisplays(float extent);
 
-gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const AovSource& source);
+/// Of an image with a texel for every pixel, stratum or tile of a picture of that size.
+gpu::DebugViewParams debugViewParams(const ImageDisplay& display, const AovSource& source,
+                                     glm::ivec2 picture);
 
 /// Low and high such that all but the outermost hundredth of the values are told apart; nothing is
 /// changed if there are no finite values. `values` as readAov() gives them.

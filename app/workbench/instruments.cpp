@@ -57,14 +57,9 @@ ProbeFrame Instruments::read(Renderer& renderer, const ViewState& state, std::ui
 ReasonCounts Instruments::countReasons(Renderer& renderer, const ViewState& state,
                                        std::size_t pane) {
     const RenderTargets& t = renderer.targets();
-    bool carried = false;
-    for (const std::size_t shown : shownPanes(state.panes)) {
-        const Settings& settings = state.panes.all[shown].settings;
-        carried = carried || makePlan(settings.filter, settings.denoiser).carrySamples;
-    }
     FrameContext context{renderer.timer()};
-    reasons_.run(context,
-                 {t.filters.at(pane).control, t.guides.current(), carried ? &t.samples : nullptr});
+    reasons_.run(context, {t.filters.at(pane).control, t.guides.current(),
+                           carriesSamples(state.panes) ? &t.samples : nullptr});
     ReasonCounts counts = reasons_.read();
     const Settings& settings = state.panes.all[pane].settings;
     if (!makePlan(settings.filter, settings.denoiser).accumulate)

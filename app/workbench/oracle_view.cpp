@@ -1,5 +1,6 @@
 #include "app/workbench/oracle_view.h"
 
+#include "app/experiment/meter.h"
 #include "app/experiment/oracle.h"
 #include "app/experiment/reference.h"
 #include "renderer/image/color.h"
@@ -19,24 +20,6 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// As in experiments, references draw other random numbers than the frame.
-constexpr std::uint32_t kReferenceSeed = 0x9e3779b9u;
-
-Image<float> channelOf(const Image<glm::vec4>& image, int channel) {
-    Image<float> result(image.size());
-    std::ranges::transform(image.pixels(), result.pixels().begin(),
-                           [&](const glm::vec4& c) { return c[channel]; });
-    return result;
-}
-
-/// The light that surfaces reflect: signal times albedo.
-Image<glm::vec4> litBy(Image<glm::vec4> signal, const Image<glm::vec4>& albedo) {
-    for (std::size_t i = 0; i < signal.pixels().size(); ++i)
-        signal.pixels()[i] =
-            glm::vec4(glm::vec3(signal.pixels()[i]) * glm::vec3(albedo.pixels()[i]), 0.0f);
-    return signal;
-}
-
 /// a - b where the mask counts, else 0.
 Image<float> difference(const Image<float>& a, const Image<float>& b, const Mask& counts) {
     Image<float> result(a.size());
@@ -46,40 +29,14 @@ Image<float> difference(const Image<float>& a, const Image<float>& b, const Mask
     return result;
 }
 
-Mask both(const Mask& a, const Mask& b) {
-    Mask result = a;
-    for (std::size_t i = 0; i < result.pixels().size(); ++i)
-        result.pixels()[i] &= b.pixels()[i];
-    return result;
-}
-
-/// What a filter left of the frozen frame.
+/// What a filter left of the frozen frame, and what has been made of it.
 struct FrozenFilter {
-    Image<glm::vec4> lit;
-    Image<float> lambda;  ///< per stratum; has a meaning if the filter has
-    Image<float> alpha;   ///< likewise
-    Image<float> blended; ///< luminance of the history, if the blend is fed to the spatial filter
-    Image<float> fedBack; ///< the same, if the blend is itself the history
-    Mask hasHistory;
-    std::optional<double> rmse; ///< once it has been asked for
+    FrameImages images;
+    bool accumulates = false;
+    float deltaFloor = 0.0f;
+    std::optional<double> rmse;
+    std::array<GpuTexture, kOracleImages> textures; ///< empty until they are asked for
 };
-
-FrozenFilter freeze(const Renderer& watched, std::size_t state, const Image<glm::vec4>& albedo,
-                    const Mask& foreground) {
-    const FilterTargets& own = watched.targets().filters[state];
-    FrozenFilter frozen;
-    frozen.lit = litBy(watched.filteredSignal(state).read<glm::vec4>(), albedo);
-    frozen.lambda = own.lambda.read<float>();
-    const auto control = own.control.read<glm::vec4>();
-    frozen.alpha = channelOf(control, 1);
-    frozen.blended = channelOf(own.accumulated.read<glm::vec4>(), 3);
-    frozen.fedBack = channelOf(own.color.current().read<glm::vec4>(), 3);
-    frozen.hasHistory = foreground;
-    for (std::size_t i = 0; i < control.pixels().size(); ++i)
-        if (control.pixels()[i].w != float(gpu::kHistoryKept))
-            frozen.hasHistory.pixels()[i] = 0;
-    return frozen;
-}
 
 /// The uniform block of another renderer's frame, put back when this ends: between two of its
 /// frames nothing else may have been bound.
@@ -92,19 +49,6 @@ public:
 
 private:
     GLint buffer_ = 0;
-};
-
-/// What an image depends on beside the frozen frame.
-struct Asked {
-    bool accumulates = false, hasLambda = false, fedBack = false;
-    float deltaFloor = 0.0f;
-
-    static Asked of(const Settings& settings) {
-        const DenoisePlan plan = makePlan(settings.filter, settings.denoiser);
-        return {plan.accumulate, plan.useLambda, plan.feedbackIteration == 0,
-                settings.denoiser.gradient.deltaFloor};
-    }
-    bool operator==(const Asked&) const = default;
 };
 
 } // namespace
@@ -135,23 +79,12 @@ struct OracleView::Impl {
     Mask foreground;
     GpuTexture picture;
 
-    struct Cached {
-        Asked asked;
-        GpuTexture texture;
-    };
-    std::array<std::array<std::optional<Cached>, kFilterStates>, kOracleImages> cache;
-
-    FrameInput inputNow() const {
-        FrameInput input = moment->now;
-        input.lights = moment->lights;
-        input.seed ^= kReferenceSeed;
-        return input;
-    }
-    FrameInput inputBefore() const {
-        FrameInput input = inputNow();
-        input.seconds = moment->secondsBefore;
-        input.lights = moment->lightsBefore;
-        return input;
+    FrameInput inputOf(const FrameMoment& of) const {
+        return {.camera = moment->now.camera,
+                .seconds = of.seconds,
+                .frame = 0,
+                .seed = referenceSeed(moment->seed),
+                .lights = of.lights};
     }
     int total() const { return changed ? 2 * samples : samples; }
     int traced() const { return atBefore ? samples + done : done; }
@@ -161,24 +94,25 @@ struct OracleView::Impl {
     void addFor(double milliseconds);
     void finishOne();
     void keepNow();
-    Image<float> make(OracleImage image, const FrozenFilter& filter, const Asked& asked) const;
-    Image<float> idealAlphaOf(const FrozenFilter& filter, const Asked& asked) const;
+    bool has(OracleImage image, const FrozenFilter& filter) const;
+    Image<float> make(OracleImage image, const FrozenFilter& filter) const;
+    Image<float> idealAlphaOf(const FrozenFilter& filter) const;
 };
 
 // Whether light or geometry of the frame before differ.
 bool OracleView::Impl::hasChanged(const Scene& scene) const {
-    if (!moment->hasBefore)
+    if (!moment->before)
         return false;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const auto scaleIn = [&](const std::vector<LightState>& lights) {
             return i < lights.size() ? lights[i].scale() : glm::vec3(1.0f);
         };
-        if (scaleIn(moment->lights) != scaleIn(moment->lightsBefore))
+        if (scaleIn(moment->now.lights) != scaleIn(moment->before->lights))
             return true;
     }
-    if (moment->now.seconds == moment->secondsBefore)
+    if (moment->now.seconds == moment->before->seconds)
         return false;
-    const Pose a = poseAt(scene, moment->now.seconds), b = poseAt(scene, moment->secondsBefore);
+    const Pose a = poseAt(scene, moment->now.seconds), b = poseAt(scene, moment->before->seconds);
     return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
         return a.worldFromNode[instance.node] != b.worldFromNode[instance.node];
     });
@@ -186,7 +120,7 @@ bool OracleView::Impl::hasChanged(const Scene& scene) const {
 
 void OracleView::Impl::start(const FrameInput& world) {
     done = 0;
-    renderer->beginReference(inputNow(), world, settings);
+    renderer->beginReference(inputOf(moment->now), world, settings);
     glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, gpu::kFrameBlock, &frameBlock);
 }
 
@@ -225,7 +159,7 @@ void OracleView::Impl::finishOne() {
         keepNow();
         if (changed) {
             atBefore = true;
-            start(inputBefore());
+            start(inputOf(*moment->before));
             return;
         }
         before = now;
@@ -238,32 +172,30 @@ OracleView::OracleView(ShaderLibrary& shaders, const GlInfo& gl)
     : impl_(std::make_unique<Impl>(shaders, gl)) {}
 OracleView::~OracleView() = default;
 
-void OracleView::begin(const Renderer& watched, Moment moment, const Settings& settings,
+void OracleView::begin(const Renderer& watched, Moment moment, std::span<const FilterRun> runs,
                        int samples) {
-    if (samples < 1)
-        throw std::logic_error("an oracle needs at least one sample");
+    if (samples < 1 || runs.empty())
+        throw std::logic_error("an oracle needs a sample, and a filter that has run");
     end();
-    const RenderTargets& t = watched.targets();
     const KeptFrameBlock kept;
     Impl& self = *impl_;
+    for (const FilterRun& run : runs) {
+        const DenoiserSettings& denoiser = run.settings.denoiser;
+        self.filters.at(run.state) = {.images = readFrame(watched, run.settings, true, run.state),
+                                      .accumulates =
+                                          makePlan(run.settings.filter, denoiser).accumulate,
+                                      .deltaFloor = denoiser.gradient.deltaFloor,
+                                      .rmse = {},
+                                      .textures = {}};
+    }
     self.moment = std::move(moment);
-    self.settings = settings;
+    self.settings = runs.front().settings;
     self.samples = samples;
-    const auto albedo = t.albedo.read<glm::vec4>();
-    const Mask foreground = foregroundOf(watched);
-    bool any = false;
-    for (std::size_t state = 0; state < kFilterStates; ++state)
-        if (watched.hasRun(state)) {
-            self.filters[state] = freeze(watched, state, albedo, foreground);
-            any = true;
-        }
-    if (!any)
-        throw std::logic_error("an oracle needs a frame");
     self.changed = self.hasChanged(watched.scene());
     self.renderer.emplace(self.shaders, self.gl);
     self.renderer->setScene(watched.scene());
-    self.renderer->resize(t.size);
-    self.start(self.inputNow());
+    self.renderer->resize(watched.size());
+    self.start(self.inputOf(self.moment->now));
 }
 
 bool OracleView::advance(double milliseconds) {
@@ -291,69 +223,75 @@ bool OracleView::isActive() const {
 bool OracleView::isDone() const {
     return impl_->converged;
 }
+int OracleView::samples() const {
+    return impl_->samples;
+}
 double OracleView::progress() const {
     if (!isActive())
         return 0.0;
     return isDone() ? 1.0 : double(impl_->traced()) / impl_->total();
 }
 
-Image<float> OracleView::Impl::idealAlphaOf(const FrozenFilter& filter, const Asked& asked) const {
-    Image<float> ideal = idealAlpha(asked.fedBack ? filter.fedBack : filter.blended, now, variance,
-                                    filter.hasHistory);
-    for (std::size_t i = 0; i < ideal.pixels().size(); ++i)
-        if (foreground.pixels()[i] == 0)
-            ideal.pixels()[i] = 0.0f;
-    return ideal;
+Image<float> OracleView::Impl::idealAlphaOf(const FrozenFilter& filter) const {
+    return within(idealAlpha(filter.images.history, now, variance, filter.images.hasHistory),
+                  foreground);
 }
 
-Image<float> OracleView::Impl::make(OracleImage image, const FrozenFilter& filter,
-                                    const Asked& asked) const {
+bool OracleView::Impl::has(OracleImage image, const FrozenFilter& filter) const {
+    switch (image) {
+    case OracleImage::Lambda:
+    case OracleImage::LambdaError: return filter.images.lambda.size().x != 0 && moment->before;
+    case OracleImage::Alpha:
+    case OracleImage::AlphaError: return filter.accumulates;
+    case OracleImage::Error:
+    case OracleImage::Reference: break;
+    }
+    return true;
+}
+
+Image<float> OracleView::Impl::make(OracleImage image, const FrozenFilter& filter) const {
+    const FrameImages& frozen = filter.images;
+    const float floor = filter.deltaFloor;
     switch (image) {
     case OracleImage::Error:
-        return difference(luminanceOf(filter.lit), luminanceOf(lit), foreground);
-    case OracleImage::Lambda: return idealLambda(now, before, foreground, asked.deltaFloor);
+        return difference(luminanceOf(frozen.lit), luminanceOf(lit), foreground);
+    case OracleImage::Lambda: return idealLambda(now, before, foreground, floor);
     case OracleImage::LambdaError:
-        return difference(filter.lambda, idealLambda(now, before, foreground, asked.deltaFloor),
-                          litStrata(now, before, foreground, asked.deltaFloor));
-    case OracleImage::Alpha: return idealAlphaOf(filter, asked);
+        return difference(frozen.lambda, idealLambda(now, before, foreground, floor),
+                          litStrata(now, before, foreground, floor));
+    case OracleImage::Alpha: return idealAlphaOf(filter);
     case OracleImage::AlphaError:
-        return difference(filter.alpha, idealAlphaOf(filter, asked),
-                          both(filter.hasHistory, foreground));
+        return difference(frozen.alpha, idealAlphaOf(filter), both(frozen.hasHistory, foreground));
     case OracleImage::Reference: break;
     }
     throw std::logic_error("the reference is no image of numbers");
 }
 
-const GpuTexture* OracleView::image(OracleImage image, std::size_t state,
-                                    const Settings& settings) {
+const GpuTexture* OracleView::image(OracleImage image, std::size_t state) {
     Impl& self = *impl_;
     if (!self.converged)
         return nullptr;
     if (image == OracleImage::Reference)
         return &self.picture;
-    const std::optional<FrozenFilter>& filter = self.filters.at(state);
-    const Asked asked = Asked::of(settings);
-    const bool isLambda = image == OracleImage::Lambda || image == OracleImage::LambdaError;
-    const bool isAlpha = image == OracleImage::Alpha || image == OracleImage::AlphaError;
-    if (!filter || (isLambda && !(asked.hasLambda && self.moment->hasBefore)) ||
-        (isAlpha && !asked.accumulates))
+    std::optional<FrozenFilter>& filter = self.filters.at(state);
+    if (!filter || !self.has(image, *filter))
         return nullptr;
-    auto& cached = self.cache[std::size_t(image)][state];
-    if (!cached || cached->asked != asked) {
-        const Image<float> values = self.make(image, *filter, asked);
-        cached = {asked, GpuTexture("oracle", PixelFormat::R32F, values.size())};
-        cached->texture.write(values);
+    GpuTexture& texture = filter->textures[std::size_t(image)];
+    if (texture.size().x == 0) {
+        const Image<float> values = self.make(image, *filter);
+        texture = GpuTexture("oracle", PixelFormat::R32F, values.size());
+        texture.write(values);
     }
-    return &cached->texture;
+    return &texture;
 }
 
-std::optional<double> OracleView::rmse(std::size_t state, const Settings&) {
+std::optional<double> OracleView::rmse(std::size_t state) {
     Impl& self = *impl_;
     std::optional<FrozenFilter>& filter = self.filters.at(state);
     if (!self.converged || !filter || countOf(self.foreground) == 0)
         return {};
     if (!filter->rmse)
-        filter->rmse = afterglow::rmse(filter->lit, self.lit, &self.foreground);
+        filter->rmse = afterglow::rmse(filter->images.lit, self.lit, &self.foreground);
     return filter->rmse;
 }
 

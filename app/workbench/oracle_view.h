@@ -17,20 +17,19 @@ public:
     OracleView(ShaderLibrary& shaders, const GlInfo& gl);
     ~OracleView();
 
-    /// The frame that was rendered last and the one before it, if there was one. Copies what it
-    /// needs of them.
+    /// The frame that was rendered last, and the one before it, if there was one.
     struct Moment {
-        FrameInput now;
-        std::vector<LightState> lights; ///< of now
-        double secondsBefore = 0.0;
-        std::vector<LightState> lightsBefore;
-        bool hasBefore = false;
+        FrameMoment now;
+        std::uint32_t seed = 0; ///< of the whole run
+        std::optional<FrameMoment> before = {};
     };
-    /// Takes the place of an earlier moment. `settings`: lighting and display of the frame.
-    /// `samples` a pixel, at least 1, for each of the two references; the second is not traced
-    /// where nothing has changed since the frame before. The watched renderer must have rendered;
-    /// else std::logic_error.
-    void begin(const Renderer& watched, Moment moment, const Settings& settings, int samples);
+    /// Takes the place of an earlier moment. `runs`: the filters of that frame, at least one, with
+    /// the settings that they ran with; lighting and display are those of the first. `samples` a
+    /// pixel, at least 1, for each of the two references; the second is not traced where nothing
+    /// has changed since the frame before. The watched renderer must have rendered; else
+    /// std::logic_error. Copies what it needs.
+    void begin(const Renderer& watched, Moment moment, std::span<const FilterRun> runs,
+               int samples);
     /// Traces for about so long, and one sample at least; nothing once it is done. True if it has
     /// just become done.
     bool advance(double milliseconds);
@@ -39,19 +38,19 @@ public:
     bool isActive() const; ///< there is a moment, done or not
     bool isDone() const;
     double progress() const; ///< [0, 1]; 0 without a moment
+    int samples() const;     ///< a pixel, of each reference; 0 without a moment
 
     /// What can be said of a filter of the frozen frame, as an image of its own: R32F per pixel, or
     /// per stratum where it is of lambda; RGBA32F, linear radiance, for the reference. Null before
     /// it is done, where the filter did not run or has no such thing (no history, no lambda from
     /// gradients), and for lambda where there was no frame before. Ideal and error are 0 on the
     /// background; so are the error of lambda where there is no light in either frame, and that of
-    /// alpha where there is no history. `settings` are those that the state ran with. The image
-    /// lives until the same is asked for with other settings, or the moment is forgotten.
-    const GpuTexture* image(OracleImage image, std::size_t state, const Settings& settings);
+    /// alpha where there is no history. The image lives until the moment is forgotten.
+    const GpuTexture* image(OracleImage image, std::size_t state);
     /// Root mean square error of the filter's light on surfaces (signal times albedo) against that
     /// of the reference, over red, green and blue. Empty before it is done, where the filter did
     /// not run, and where no surface is seen.
-    std::optional<double> rmse(std::size_t state, const Settings& settings);
+    std::optional<double> rmse(std::size_t state);
 
 private:
     struct Impl;

@@ -3,6 +3,7 @@
 #include "app/workbench/fields.h"
 
 #include "renderer/base/names.h"
+#include "renderer/pipeline/denoise_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,12 @@ std::vector<std::size_t> shownPanes(const Panes& panes) {
 bool isShown(const Panes& panes, std::size_t pane) {
     const auto shown = shownPanes(panes);
     return std::ranges::find(shown, pane) != shown.end();
+}
+
+bool carriesSamples(const Panes& panes) {
+    return std::ranges::any_of(shownPanes(panes), [&](std::size_t pane) {
+        return carriesSamples(panes.all[pane].settings);
+    });
 }
 
 std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after) {
@@ -214,12 +221,15 @@ std::optional<PanePixel> pixelAt(std::span<const PanePlace> places, glm::vec2 po
         if (place.shown.empty() || glm::any(glm::lessThan(position, low)) ||
             glm::any(glm::greaterThanEqual(position, high)))
             continue;
-        const glm::vec2 part =
-            (position - glm::vec2(place.picture.min)) / glm::vec2(place.picture.size);
-        return PanePixel{place.pane, glm::clamp(glm::ivec2(glm::floor(part * glm::vec2(image))),
-                                                glm::ivec2(0), image - 1)};
+        return PanePixel{place.pane, pixelOf(place, position, image)};
     }
     return {};
+}
+
+glm::ivec2 pixelOf(const PanePlace& place, glm::vec2 position, glm::ivec2 image) {
+    const glm::vec2 part =
+        (position - glm::vec2(place.picture.min)) / glm::vec2(place.picture.size);
+    return glm::clamp(glm::ivec2(glm::floor(part * glm::vec2(image))), glm::ivec2(0), image - 1);
 }
 
 glm::vec2 positionOf(const PanePlace& place, glm::vec2 pixel, glm::ivec2 image) {

@@ -47,6 +47,8 @@ Panes startPanes(const Settings& settings);
 /// Those that run, in the order in which they are shown.
 std::vector<std::size_t> shownPanes(const Panes& panes);
 bool isShown(const Panes& panes, std::size_t pane);
+/// Whether a frame of those that are shown has gradient samples.
+bool carriesSamples(const Panes& panes);
 std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after);
 
 void chooseLayout(Panes& panes, PaneLayout layout);
@@ -90,6 +92,8 @@ struct PanePixel {
 };
 std::optional<PanePixel> pixelAt(std::span<const PanePlace> places, glm::vec2 position,
                                  glm::ivec2 image);
+/// The nearest pixel of a pane's picture to a position; the picture must not be empty.
+glm::ivec2 pixelOf(const PanePlace& place, glm::vec2 position, glm::ivec2 image);
 /// Where a pixel's square is in the framebuffer, in a pane's picture: its upper left corner, with
 /// fractions.
 glm::vec2 positionOf(const PanePlace& place, glm::vec2 pixel, glm::ivec2 image);

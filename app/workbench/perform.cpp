@@ -19,7 +19,7 @@ void cycleCurve(ViewState& state) {
     state.curve = ProbeQuantity((std::size_t(state.curve) + 1) % quantities().size());
 }
 
-// At the mouse, or, where there is none, in the middle: the program knows the picture's size.
+// The program knows the size of the picture.
 void probeHere(ViewState& state) {
     if (!state.hovered)
         return notify(state, "The mouse is not over a picture", true);

@@ -1,7 +1,6 @@
 #include "app/workbench/pictures.h"
 
 #include "renderer/pipeline/aov.h"
-#include "shared/bindings.h"
 
 #include <algorithm>
 #include <cstring>
@@ -58,24 +57,6 @@ std::size_t indexOf(std::string_view aov) {
     return std::size_t(std::ranges::find(all, aov, &AovInfo::name) - all.begin());
 }
 
-// How many pixels a texel stands for.
-int pixelsPerTexel(glm::ivec2 texels, glm::ivec2 image) {
-    if (texels == image)
-        return 1;
-    return texels == strataOf(image) ? int(kStratumSize) : int(kTileSize);
-}
-
-DebugViewParams paramsOf(const ImageDisplay& display, int perTexel, int channel, bool floatBits) {
-    return {.map = display.map,
-            .channel = channel,
-            .pixelsPerTexel = perTexel,
-            .isFloatBits = floatBits ? 1 : 0,
-            .low = display.low,
-            .high = display.high,
-            .unused0 = 0.0f,
-            .unused1 = 0.0f};
-}
-
 bool same(const DebugViewParams& a, const DebugViewParams& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
@@ -88,7 +69,8 @@ Pictures::Choice Pictures::aovChoice(const Sources& from, std::size_t pane) cons
     const AovInfo& aov = aovs()[from.state.shown.index];
     Choice choice;
     choice.legend = {std::string(aov.name), std::string(aov.meaning), {}, {}};
-    if (!shownAov(from.state, pane)) {
+    const auto run = std::ranges::find(from.runs, pane, &FilterRun::state);
+    if (!isMadeBy(aov, run->settings.filter, run->settings.denoiser)) {
         choice.legend.note =
             titleOf(from.state.panes.all[pane]) + " does not make it: this is the picture.";
         return choice;
@@ -96,7 +78,7 @@ Pictures::Choice Pictures::aovChoice(const Sources& from, std::size_t pane) cons
     const ImageDisplay& display = from.state.displays[from.state.shown.index];
     const AovSource source = sourceOf(from.renderer, aov, pane);
     choice.image = &source.texture;
-    choice.params = debugViewParams(display, source);
+    choice.params = debugViewParams(display, source, from.renderer.size());
     choice.legend.display = display;
     return choice;
 }
@@ -124,8 +106,8 @@ Pictures::Choice Pictures::passChoice(const Sources& from) const {
     choice.legend.meaning =
         "shown as " + std::string(content->aov) + ": " + std::string(aovs()[index].meaning);
     choice.legend.display = display;
-    choice.params = paramsOf(display, pixelsPerTexel(choice.image->size(), from.renderer.size()),
-                             content->channel, content->isFloatBits);
+    choice.params = debugViewParams(
+        display, {*choice.image, content->channel, content->isFloatBits}, from.renderer.size());
     return choice;
 }
 
@@ -138,15 +120,14 @@ Pictures::Choice Pictures::oracleChoice(const Sources& from, std::size_t pane) c
         choice.legend.note = "It is shown when the reference has converged.";
         return choice;
     }
-    choice.image = from.oracle.image(wanted, pane, from.state.panes.all[pane].settings);
+    choice.image = from.oracle.image(wanted, pane);
     if (!choice.image) {
         choice.legend.note =
             titleOf(from.state.panes.all[pane]) + " has none: this is the picture.";
         return choice;
     }
     choice.legend.display = display;
-    choice.params =
-        paramsOf(display, pixelsPerTexel(choice.image->size(), from.renderer.size()), 0, false);
+    choice.params = debugViewParams(display, {*choice.image}, from.renderer.size());
     return choice;
 }
 
@@ -192,51 +173,72 @@ const GpuTexture* Pictures::of(const Sources& from, std::size_t pane) {
 }
 
 // Of what both panes show; where that cannot be subtracted, of the linear pictures.
-const GpuTexture* Pictures::difference(const Sources& from) {
-    const auto [first, second] = from.state.panes.pair;
-    if (!from.renderer.hasRun(second))
-        return nullptr;
-    Choice a = choiceFor(from, first), b = choiceFor(from, second);
+Pictures::Subtraction Pictures::subtractionFor(const Sources& from) const {
+    const Panes& panes = from.state.panes;
+    const auto [first, second] = panes.pair;
+    const Choice a = choiceFor(from, first), b = choiceFor(from, second);
     const auto isFloat = [](const Choice& c) {
         return c.image &&
                (c.image->format() == PixelFormat::R32F || c.image->format() == PixelFormat::RG32F ||
                 c.image->format() == PixelFormat::RGBA32F);
     };
+    Subtraction result{a, a.image, b.image};
     const bool subtracts =
         isFloat(a) && isFloat(b) && a.image->size() == b.image->size() && a.image != b.image;
     if (!subtracts) {
         const auto& filters = from.renderer.targets().filters;
-        a.image = &filters[first].composed;
-        b.image = &filters[second].composed;
-        a.params = {};
-        a.params.map = kMapRadiance;
-        a.params.pixelsPerTexel = 1;
-        a.params.high = std::exp2(-from.state.panes.all[first].settings.display.exposure);
+        result.first = &filters[first].composed;
+        result.second = &filters[second].composed;
+        result.shown.params = {};
+        result.shown.params.map = kMapRadiance;
+        result.shown.params.pixelsPerTexel = 1;
+        result.shown.params.high = std::exp2(-panes.all[first].settings.display.exposure);
+        if (!a.legend.name.empty())
+            result.shown.legend.note = "It cannot be subtracted: this is of the pictures.";
     }
     // One channel keeps its sign; colors and directions show by how much.
-    const bool scalar =
-        a.params.map == kMapScalar || a.params.map == kMapLogarithm || a.params.map == kMapSigned;
-    DebugViewParams params = a.params;
+    DebugViewParams& params = result.shown.params;
+    const bool isRange = params.map == kMapScalar || params.map == kMapLogarithm;
+    const bool scalar = isRange || params.map == kMapSigned;
+    const float range = isRange ? params.high - params.low : params.high;
     params.map = scalar ? kMapSigned : kMapRadiance;
-    const bool isRange = a.params.map == kMapScalar || a.params.map == kMapLogarithm;
-    const float range = isRange ? a.params.high - a.params.low : a.params.high;
-    params.high = std::max(range, 1e-9f) / from.state.panes.gain;
+    params.high = std::max(range, 1e-9f) / panes.gain;
     params.low = scalar ? -params.high : 0.0f;
+    PictureLegend& legend = result.shown.legend;
+    legend.display = ImageDisplay{.name = "difference",
+                                  .map = params.map,
+                                  .low = params.low,
+                                  .high = params.high,
+                                  .unit = a.legend.display ? a.legend.display->unit : ""};
+    if (legend.name.empty())
+        legend.meaning = "linear radiance of the one picture minus the other, without its sign";
+    legend.name = legend.name.empty() ? "difference" : "difference of " + legend.name;
+    return result;
+}
+
+const GpuTexture* Pictures::difference(const Sources& from) {
+    if (!from.renderer.hasRun(from.state.panes.pair[1]))
+        return nullptr;
+    const Subtraction wanted = subtractionFor(from);
     Slot& slot = slots_.back();
-    if (differences_.size() != a.image->size()) {
-        differences_ = GpuTexture("difference", PixelFormat::RGBA32F, a.image->size());
+    if (differences_.size() != wanted.first->size()) {
+        differences_ = GpuTexture("difference", PixelFormat::RGBA32F, wanted.first->size());
         slot.version = 0;
     }
-    if (slot.version != version_ || slot.image != &differences_ || !same(slot.params, params)) {
+    if (slot.version != version_ || !same(slot.params, wanted.shown.params)) {
         FrameContext context{from.renderer.timer()};
-        difference_.run(context, *a.image, *b.image, differences_,
-                        scalar ? Difference::Signed : Difference::Absolute);
+        difference_.run(context, *wanted.first, *wanted.second, differences_,
+                        wanted.shown.params.map == kMapSigned ? Difference::Signed
+                                                              : Difference::Absolute);
         slot.version = 0; // to be developed
     }
-    return developed(from, slot, differences_, params);
+    return developed(from, slot, differences_, wanted.shown.params);
 }
 
 PictureLegend Pictures::legendOf(const Sources& from, std::size_t pane) const {
+    const Panes& panes = from.state.panes;
+    if (panes.layout == PaneLayout::Difference && from.renderer.hasRun(panes.pair[1]))
+        return subtractionFor(from).shown.legend;
     return choiceFor(from, pane).legend;
 }
 

@@ -27,6 +27,7 @@ public:
 
     struct Sources {
         Renderer& renderer;
+        std::span<const FilterRun> runs; ///< of the last frame
         const ViewState& state;
         const PassCapture& passes;
         OracleView& oracle;
@@ -55,6 +56,12 @@ private:
     Choice aovChoice(const Sources& from, std::size_t pane) const;
     Choice passChoice(const Sources& from) const;
     Choice oracleChoice(const Sources& from, std::size_t pane) const;
+    /// What is subtracted in a difference, and how that is shown.
+    struct Subtraction {
+        Choice shown;
+        const GpuTexture *first = nullptr, *second = nullptr;
+    };
+    Subtraction subtractionFor(const Sources& from) const;
     const GpuTexture* difference(const Sources& from);
     const GpuTexture* developed(const Sources& from, Slot& slot, const GpuTexture& image,
                                 const gpu::DebugViewParams& params);

@@ -66,8 +66,7 @@ public:
             history.length += weight * own_.moments.previous().readAt<glm::vec4>(q).z;
             weights += weight;
         }
-        constexpr float kLeastWeight = 0.01f;
-        history.length = weights < kLeastWeight ? 0.0f : history.length / weights;
+        history.length = weights < gpu::kLeastWeight ? 0.0f : history.length / weights;
         return history;
     }
 
@@ -114,10 +113,9 @@ private:
         if (t_.visibility.previous().readAt<glm::uvec4>(q).x != facts_.instance)
             return gpu::kHistoryInstance;
         const gpu::TemporalParams& params = facts_.settings.denoiser.temporal;
-        constexpr float kDepthEpsilon = 0.005f; // of the depth
         const float tolerance =
             params.depthTolerance * (std::abs(facts_.slope.x) + std::abs(facts_.slope.y)) +
-            kDepthEpsilon * facts_.motion.z;
+            gpu::kDepthEpsilon * facts_.motion.z;
         const auto guide = t_.guides.previous().readAt<glm::vec4>(q);
         if (std::abs(guide.w - facts_.motion.z) > tolerance)
             return gpu::kHistoryDepth;

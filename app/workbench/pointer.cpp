@@ -11,9 +11,7 @@ std::optional<glm::ivec2> pixelIn(std::span<const PanePlace> places, std::size_t
     const auto place = std::ranges::find(places, pane, &PanePlace::pane);
     if (place == places.end() || place->picture.empty())
         return {};
-    const glm::vec2 part =
-        (position - glm::vec2(place->picture.min)) / glm::vec2(place->picture.size);
-    return glm::clamp(glm::ivec2(glm::floor(part * glm::vec2(image))), glm::ivec2(0), image - 1);
+    return pixelOf(*place, position, image);
 }
 
 // The first probe that is free, or the active one.
@@ -33,8 +31,11 @@ void movePointer(Pointer& pointer, ViewState& state, const PointerInput& input,
                                                    : std::optional<PanePixel>();
     state.hovered = under;
 
+    const bool near = input.onPicture && hasImage &&
+                      isOnDivider(state.panes, places, input.position, input.reach);
+
     if (input.pressed && input.onPicture && hasImage) {
-        if (isOnDivider(state.panes, places, input.position, input.reach)) {
+        if (near) {
             pointer.holds = Pointer::Holds::Divider;
         } else if (under) {
             choosePane(state.panes, under->pane);
@@ -50,6 +51,8 @@ void movePointer(Pointer& pointer, ViewState& state, const PointerInput& input,
     if (pointer.holds == Pointer::Holds::Probe && hasImage)
         pointer.opposite =
             pixelIn(places, pointer.pane, input.position, image).value_or(pointer.opposite);
+    pointer.onDivider = pointer.holds == Pointer::Holds::Divider ||
+                        (pointer.holds == Pointer::Holds::Nothing && near);
     if (!input.released)
         return;
     if (const auto probe = draggedProbe(pointer, image))

@@ -16,6 +16,7 @@ struct Pointer {
     glm::ivec2 corner{0};   ///< where it began
     glm::ivec2 opposite{0}; ///< where it is now
     std::size_t probe = 0;  ///< which one it will be
+    bool onDivider = false; ///< the mouse holds the divider of a wipe, or is where it would take it
 };
 
 /// In framebuffer pixels. `onPicture`: the mouse is not over a panel.

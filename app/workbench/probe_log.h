@@ -1,5 +1,7 @@
 #pragma once
 
+#include "renderer/resources/render_targets.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +17,8 @@
 
 namespace afterglow {
 
-constexpr std::size_t kProbes = 4; ///< at most
-constexpr std::size_t kPanes = 4;  ///< at most; each shows one filter, all on the same noise
+constexpr std::size_t kProbes = 4;            ///< at most
+constexpr std::size_t kPanes = kFilterStates; ///< at most; each shows one filter, on one noise
 
 /// 'A' for 0, and so on: how probes and panes are called.
 constexpr char letterOf(std::size_t index) {

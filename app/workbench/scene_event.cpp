@@ -13,11 +13,6 @@ namespace {
 constexpr float kDimmed = 0.5f;
 constexpr glm::vec3 kBlue{0.25f, 1.21157f, 2.6f}; // the tint of the experiment light-color
 
-bool isLightEvent(SceneEvent::Kind kind) {
-    return kind == SceneEvent::Kind::ToggleLight || kind == SceneEvent::Kind::DimLight ||
-           kind == SceneEvent::Kind::ColorLight;
-}
-
 // Uniform Catmull-Rom: through b and c, with a before and d after.
 glm::vec3 between(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, float t) {
     return 0.5f * ((2.0f * b) + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t +
@@ -25,6 +20,11 @@ glm::vec3 between(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, float t) {
 }
 
 } // namespace
+
+bool isLightEvent(SceneEvent::Kind kind) {
+    return kind == SceneEvent::Kind::ToggleLight || kind == SceneEvent::Kind::DimLight ||
+           kind == SceneEvent::Kind::ColorLight;
+}
 
 std::string nameOf(const SceneEvent& event, std::span<const std::string> lightNames) {
     const std::string light =

@@ -27,6 +27,7 @@ struct SceneEvent {
     bool operator==(const SceneEvent&) const = default;
 };
 inline constexpr int kSceneEventKinds = 6;
+bool isLightEvent(SceneEvent::Kind kind); ///< it is about one light
 
 /// "toggle key", "camera cut": what it will do.
 std::string nameOf(const SceneEvent& event, std::span<const std::string> lightNames);

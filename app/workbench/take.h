@@ -18,7 +18,7 @@ struct FrameMoment {
     std::vector<std::string> marks{}; ///< what happens in it: "key off"
     bool step = false;                ///< light alone has changed: there is a response to measure
 
-    bool operator==(const FrameMoment& other) const;
+    bool operator==(const FrameMoment&) const = default;
 };
 
 /// Frames one after the other, as they were given or are to be.
@@ -29,8 +29,5 @@ struct Take {
 
     bool operator==(const Take&) const = default;
 };
-
-/// The same place, direction and lens, to the last bit.
-bool sameView(const Camera& a, const Camera& b);
 
 } // namespace afterglow

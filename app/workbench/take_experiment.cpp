@@ -190,15 +190,10 @@ void expectFreeCamera(const Take& take, const Scene& scene, bool animated) {
 }
 
 void expectSameLens(const Take& take, const Scene& scene) {
-    Camera expected;
-    expected.lens = scene.cameras.at(0).lens;
-    for (std::size_t i = 0; i < take.frames.size(); ++i) {
-        Camera camera = expected;
-        camera.lens = take.frames[i].camera.lens;
-        if (!sameView(camera, expected))
+    for (std::size_t i = 0; i < take.frames.size(); ++i)
+        if (take.frames[i].camera.lens != scene.cameras.at(0).lens)
             throw Error(at(take, i) + "the lens is not that of the first camera of the scene " +
                         scene.name);
-    }
 }
 
 } // namespace
@@ -257,8 +252,8 @@ Experiment experimentOf(const Take& take, const Scene& scene, Experiment base, i
                 events.push_back(*event);
             }
         }
-        const bool moves = i == 0 ? !sameView(now.camera, ownView(0))
-                                  : !sameView(now.camera, take.frames[i - 1].camera);
+        const bool moves =
+            i == 0 ? now.camera != ownView(0) : now.camera != take.frames[i - 1].camera;
         if (!own && moves)
             events.push_back(moveTo(take, i, when));
     }

@@ -22,11 +22,6 @@ constexpr std::string_view kAllLights = "*";
 constexpr std::array<std::string_view, kSceneEventKinds> kEventNames{
     "toggle", "dim", "recolor", "animation", "camera-cut", "camera-path"};
 
-bool concernsLight(SceneEvent::Kind kind) {
-    return kind == SceneEvent::Kind::ToggleLight || kind == SceneEvent::Kind::DimLight ||
-           kind == SceneEvent::Kind::ColorLight;
-}
-
 template <typename T, typename Name> // of what to choose from
 std::size_t choiceOf(const JsonReader& json, const T& values, Name name) {
     std::vector<std::string_view> names;
@@ -92,7 +87,7 @@ TourEvent readEvent(const JsonReader& json) {
     json.expectKeys({"event", "light", "every"});
     TourEvent event;
     event.kind = SceneEvent::Kind(json.at("event").choice(kEventNames));
-    if (concernsLight(event.kind))
+    if (isLightEvent(event.kind))
         event.light = readLine(json.at("light"), "the name of a light");
     else if (const auto light = json.find("light"))
         light->refuse("this event concerns no light");

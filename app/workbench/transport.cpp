@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -77,11 +78,18 @@ void remember(Transport& t, FrameMoment moment) {
 } // namespace
 
 bool wantsFrame(const Transport& t, double secondsSinceLastFrame) {
+    return secondsUntilFrame(t, secondsSinceLastFrame) == 0.0;
+}
+
+double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
     if (isFinished(t))
-        return false;
+        return kNever;
     if (t.paused)
-        return t.stepsLeft > 0 || !t.last;
-    return t.frameLimit == 0 || !t.last || secondsSinceLastFrame >= 1.0 / t.frameLimit - kEarly;
+        return t.stepsLeft > 0 || !t.last ? 0.0 : kNever;
+    if (t.frameLimit == 0 || !t.last)
+        return 0.0;
+    return std::max(0.0, 1.0 / t.frameLimit - kEarly - secondsSinceLastFrame);
 }
 
 FrameMoment nextMoment(Transport& t, const FrameMoment& live) {

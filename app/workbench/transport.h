@@ -93,6 +93,8 @@ struct Transport {
 /// Whether a frame is to be rendered now. The very first one always, so that there is something to
 /// see; one that is stepped to at once, whatever the limit.
 bool wantsFrame(const Transport& t, double secondsSinceLastFrame);
+/// How long until then, if nothing else happens: 0, or infinity where nothing is to be rendered.
+double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame);
 
 /// What the next frame is given: `live`, with the transport's time, or what the played take says.
 /// Where a take has ended there is none: a std::logic_error.

@@ -11,7 +11,7 @@ namespace afterglow {
 namespace {
 
 constexpr double kNoticeSeconds = 5.0;
-constexpr std::string_view kSigned = "radiance";
+constexpr std::string_view kRadiance = "radiance";
 
 struct OracleRow {
     std::string_view name, meaning;
@@ -20,10 +20,10 @@ struct OracleRow {
 const std::array<OracleRow, kOracleImages> kOracleRows{{
     {"error",
      "luminance of the picture minus that of the reference: orange is too bright, blue too dark",
-     {"error", gpu::kMapSigned, -0.2f, 0.2f, kSigned}},
+     {"error", gpu::kMapSigned, -0.2f, 0.2f, kRadiance}},
     {"reference",
      "the converged picture of this frame, without emission",
-     {"reference", gpu::kMapRadiance, 0.0f, 1.0f, kSigned}},
+     {"reference", gpu::kMapRadiance, 0.0f, 1.0f, kRadiance}},
     {"ideal lambda",
      "the share of the light that truly changed in each stratum since the frame before",
      {"ideal lambda", gpu::kMapScalar, 0.0f, 1.0f, ""}},
@@ -181,7 +181,7 @@ void cutCamera(ViewState& state) {
     // The one after the place where the camera is; from anywhere else, the first.
     std::size_t next = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
-        if (sameView(places[i], state.camera))
+        if (places[i] == state.camera)
             next = (i + 1) % places.size();
     state.camera = places[next];
     state.onPath = false;
@@ -204,10 +204,11 @@ void addBookmark(ViewState& state) {
     };
     while (taken("place " + std::to_string(number)))
         ++number;
-    places.push_back({.name = "place " + std::to_string(number),
-                      .position = state.camera.position,
-                      .orientation = state.camera.orientation,
-                      .verticalFov = state.camera.lens.verticalFov});
+    rememberPlace(state.preferences, state.sceneName,
+                  {.name = "place " + std::to_string(number),
+                   .position = state.camera.position,
+                   .orientation = state.camera.orientation,
+                   .verticalFov = state.camera.lens.verticalFov});
     notify(state,
            "Remembered as " + places.back().name + ": Ctrl Shift " + std::to_string(places.size()));
 }
@@ -295,11 +296,11 @@ FrameMoment liveMoment(ViewState& state) {
     if (!state.time.last)
         return moment;
     const auto changes = describeChange(state.lightNames, state.time.last->lights, state.lights);
-    const bool moved = cut && !sameView(state.time.last->camera, state.camera);
+    const bool moved = cut && state.time.last->camera != state.camera;
     if (moved)
         moment.marks.push_back("camera cut");
     moment.step =
-        !changes.empty() && moment.marks.empty() && sameView(state.time.last->camera, state.camera);
+        !changes.empty() && moment.marks.empty() && state.time.last->camera == state.camera;
     moment.marks.insert(moment.marks.end(), changes.begin(), changes.end());
     return moment;
 }

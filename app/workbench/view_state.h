@@ -68,8 +68,8 @@ struct Requests {
     bool record = false;                                      ///< frames: begin, or end
     bool copyCurves = false, saveCurves = false;              ///< of the probes, as CSV
     bool copyPreset = false, pastePreset = false;
-    std::string savePreset; ///< a name; empty: none
-    bool saveTake = false;  ///< as an experiment
+    std::string savePreset, removePreset; ///< a name; empty: none
+    bool saveTake = false;                ///< as an experiment
     bool reloadShaders = false;
     bool probeAtMouse = false; ///< the active probe, on ViewState::hovered
     int passStep = 0;          ///< so many passes of a frame on, or back; one a round
@@ -117,13 +117,13 @@ struct ViewState {
     std::optional<PanePixel> inspected; ///< pinned
     bool frozen = false; ///< the moment is held and its reference converges; nothing is rendered
     bool pausedBefore = false; ///< whether time stood still before that
-    int oracleSamples = 1024; ///< a pixel, of the reference
-    int recordFrames = 0;     ///< after which a recording ends; 0: when it is told to
+    int oracleSamples = 1024;  ///< a pixel, of the reference
+    int recordFrames = 0;      ///< after which a recording ends; 0: when it is told to
     std::optional<std::size_t> tourStop;
 
     Preferences preferences;
-    bool showHelp = false, showTimings = true, showInspector = false, showCurves = false,
-         showPasses = false, showStrip = true, showPresets = false;
+    bool showHelp = false, showInspector = false, showCurves = false, showPasses = false,
+         showStrip = true, showPresets = false;
     Notice notice;
     Requests wanted;
     bool keyboardInPanel = false; ///< keys move in the panel and press its buttons

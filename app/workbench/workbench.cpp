@@ -1,7 +1,8 @@
 #include "app/workbench/workbench_impl.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <limits>
 
 namespace afterglow {
 namespace {
@@ -40,8 +41,8 @@ bool Workbench::advance(double wallSeconds, glm::ivec2 view) {
     self.sinceReload += wallSeconds;
     self.serveRequests();
     self.followFreeze();
-    const bool renders = view.x > 0 && view.y > 0 && !state.frozen &&
-                         wantsFrame(state.time, self.sinceFrame) && !isFinished(state.time);
+    const bool renders =
+        view.x > 0 && view.y > 0 && !state.frozen && wantsFrame(state.time, self.sinceFrame);
     if (renders)
         self.renderFrame(wallSeconds, view);
     self.inspectPixel(renders);
@@ -52,6 +53,12 @@ bool Workbench::advance(double wallSeconds, glm::ivec2 view) {
         self.shaderErrors = self.shaders.reload().errors;
     }
     return renders;
+}
+
+double Workbench::secondsUntilFrame() const {
+    if (state.frozen)
+        return impl_->oracle.isDone() ? std::numeric_limits<double>::infinity() : 0.0;
+    return afterglow::secondsUntilFrame(state.time, impl_->sinceFrame);
 }
 
 // Everything of a frame that is settled before it is rendered.
@@ -73,9 +80,12 @@ FrameMoment Workbench::Impl::prepareFrame(glm::ivec2 view) {
             renderer.restore(*checkpoint);
         else
             renderer.resetHistory();
+        now = checkpoint ? checkpointMoment : std::nullopt;
     }
-    if (std::exchange(time.checkpointWanted, false))
+    if (std::exchange(time.checkpointWanted, false)) {
         checkpoint = renderer.checkpoint();
+        checkpointMoment = now;
+    }
 
     if (!time.playing)
         return nextMoment(time, liveMoment(state));
@@ -96,7 +106,7 @@ void Workbench::Impl::render(const FrameMoment& moment) {
     } else {
         capture.clear();
     }
-    std::vector<FilterRun> runs;
+    runs.clear();
     for (const std::size_t pane : shownPanes(state.panes))
         runs.push_back({pane, state.panes.all[pane].settings});
     renderer.render({.camera = moment.camera,
@@ -111,7 +121,7 @@ void Workbench::Impl::render(const FrameMoment& moment) {
     pictures.changed();
 }
 
-bool Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
+void Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
     const FrameMoment moment = prepareFrame(view);
     const Clock::time_point start = Clock::now();
     render(moment);
@@ -128,9 +138,8 @@ bool Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
     measure(moment);
     before = std::move(now);
     now = moment;
-    nowFrame = state.time.frame;
+    nowSeed = state.seed;
     frameRendered(state.time, wallSeconds);
-    return true;
 }
 
 void Workbench::Impl::measure(const FrameMoment& moment) {
@@ -156,21 +165,11 @@ void Workbench::Impl::followFreeze() {
         }
         return;
     }
-    if (!now) { // nothing has been rendered that could be held
+    if (!now) // nothing has been rendered that could be held
         return toggleFreeze(state);
-    }
-    if (!oracle.isActive()) {
-        OracleView::Moment moment{.now = {.camera = now->camera,
-                                          .seconds = now->seconds,
-                                          .frame = nowFrame,
-                                          .seed = state.seed,
-                                          .lights = {}},
-                                  .lights = now->lights,
-                                  .secondsBefore = before ? before->seconds : 0.0,
-                                  .lightsBefore =
-                                      before ? before->lights : std::vector<LightState>{},
-                                  .hasBefore = before.has_value()};
-        oracle.begin(renderer, std::move(moment), state.settings(), state.oracleSamples);
+    if (!oracle.isActive() || oracle.samples() != state.oracleSamples) {
+        pictures.changed();
+        oracle.begin(renderer, {*now, nowSeed, before}, runs, state.oracleSamples);
     }
     if (oracle.advance(kOracleMilliseconds))
         pictures.changed();
@@ -193,6 +192,11 @@ void Workbench::Impl::stepPass(int step) {
     perform(state, {Action::StepOnce});
 }
 
+// A pane may have been set to something else since.
+const Settings& Workbench::Impl::settingsThatRan(std::size_t pane) const {
+    return std::ranges::find(runs, pane, &FilterRun::state)->settings;
+}
+
 void Workbench::Impl::inspectPixel(bool rendered) {
     const auto& wanted = state.inspected ? state.inspected : state.hovered;
     if (!state.showInspector || !wanted || !now || !renderer.hasRun(wanted->pane) ||
@@ -204,8 +208,7 @@ void Workbench::Impl::inspectPixel(bool rendered) {
     const bool same =
         inspection && inspection->pixel == wanted->pixel && inspection->state == wanted->pane;
     if (rendered || !same)
-        inspection =
-            inspect(renderer, wanted->pane, state.panes.all[wanted->pane].settings, wanted->pixel);
+        inspection = inspect(renderer, wanted->pane, settingsThatRan(wanted->pane), wanted->pixel);
 }
 
 const GpuTexture* Workbench::picture(std::size_t pane) {
@@ -253,12 +256,12 @@ const OracleView& Workbench::oracle() const {
     return impl_->oracle;
 }
 std::optional<double> Workbench::oracleRmse(std::size_t pane) {
-    return impl_->oracle.rmse(pane, state.panes.all.at(pane).settings);
+    return impl_->oracle.rmse(pane);
 }
 const std::optional<Inspection>& Workbench::inspection() const {
     return impl_->inspection;
 }
-PresetStore& Workbench::presets() {
+const PresetStore& Workbench::presets() const {
     return impl_->presets;
 }
 const FrameRecorder& Workbench::recorder() const {
@@ -275,10 +278,6 @@ std::size_t Workbench::imageBytes() const {
 
 std::optional<std::string> Workbench::takeCopied() {
     return std::exchange(impl_->copied, {});
-}
-
-void Workbench::resetTimer() {
-    impl_->sinceFrame = 0.0;
 }
 
 } // namespace afterglow

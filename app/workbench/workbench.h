@@ -39,6 +39,9 @@ public:
     /// the window's part for pictures; empty: nothing is rendered. Returns whether a frame was.
     bool advance(double wallSeconds, glm::ivec2 view);
 
+    /// How long nothing is to be done if nothing else happens: 0, or infinity.
+    double secondsUntilFrame() const;
+
     /// What a pane shows now: RGBA8, sRGB-encoded; null before the first frame. In a difference,
     /// that of the first pane of the pair.
     const GpuTexture* picture(std::size_t pane);
@@ -58,7 +61,7 @@ public:
     const OracleView& oracle() const;
     std::optional<double> oracleRmse(std::size_t pane);
     const std::optional<Inspection>& inspection() const; ///< while the inspector is open
-    PresetStore& presets();
+    const PresetStore& presets() const;
     const FrameRecorder& recorder() const;
     std::span<const std::string> shaderErrors() const; ///< from the last attempt to reload
     std::size_t imageBytes() const;                    ///< of all images on the device
@@ -67,14 +70,13 @@ public:
     void open(const std::string& nameOrPath);
     /// Whether a name or path means an experiment: one that is built in, or a .json file.
     static bool isExperiment(const std::string& nameOrPath);
-    /// Throws what open() would make a notice of.
-    static void checkExperiment(const std::string& nameOrPath);
     bool playsScene() const; ///< and not an experiment
 
     // The clipboard is the window's.
     std::optional<std::string> takeCopied(); ///< text that was asked to be copied, once
     void paste(const std::string& text);     ///< a preset, for the active pane
-    void resetTimer(); ///< forgets the pace, after the program has waited for something else
+    /// Writes a picture with the next free name; what comes of it becomes a notice.
+    void save(const Image<glm::u8vec4>& picture);
 
 private:
     struct Impl;

@@ -32,6 +32,14 @@ PaneLayout layoutFor(std::size_t variants) {
     return variants == 2 ? PaneLayout::TwoUp : PaneLayout::FourUp;
 }
 
+/// As readAov() gives an image of one channel.
+Image<glm::vec4> inColors(const Image<float>& values) {
+    Image<glm::vec4> result(values.size());
+    std::ranges::transform(values.pixels(), result.pixels().begin(),
+                           [](float value) { return glm::vec4(value, 0.0f, 0.0f, 0.0f); });
+    return result;
+}
+
 } // namespace
 
 void Workbench::Impl::attempt(const std::function<void()>& action) {
@@ -56,7 +64,7 @@ void Workbench::Impl::serveRequests() {
     if (asked(wanted.fitRange))
         fitRange();
     if (asked(wanted.picture))
-        attempt([&] { saveImage("afterglow"); });
+        owner.save(composedView());
     if (asked(wanted.imageFiles))
         attempt([&] { saveImageFiles(); });
     if (asked(wanted.record))
@@ -76,13 +84,29 @@ void Workbench::Impl::serveRequests() {
     }
     if (const std::string name = std::exchange(wanted.savePreset, {}); !name.empty())
         attempt([&] { savePreset(name); });
+    if (const std::string name = std::exchange(wanted.removePreset, {}); !name.empty())
+        attempt([&] {
+            presets.remove(name);
+            notify(state, "Removed the preset " + name);
+        });
 }
 
 void Workbench::Impl::fitRange() {
-    const std::size_t pane = state.panes.active;
-    if (const auto aov = shownAov(state, pane); aov && renderer.hasRun(pane))
-        state.displays[*aov] =
-            fittedTo(readAov(renderer, aovs()[*aov], pane), state.displays[*aov]);
+    const std::size_t pane = state.panes.active, index = state.shown.index;
+    if (state.shown.kind == Shown::Kind::Aov && renderer.hasRun(pane) &&
+        isMadeBy(aovs()[index], settingsThatRan(pane).filter, settingsThatRan(pane).denoiser))
+        state.displays[index] =
+            fittedTo(readAov(renderer, aovs()[index], pane), state.displays[index]);
+    if (state.shown.kind != Shown::Kind::Oracle)
+        return;
+    const GpuTexture* const image = oracle.image(OracleImage(state.shown.index), pane);
+    if (!image)
+        return notify(state, "There is nothing yet that a range could be fitted to", true);
+    ImageDisplay& display = state.oracleDisplays[state.shown.index];
+    if (image->format() == PixelFormat::RGBA32F)
+        display = fittedTo(image->read<glm::vec4>(), display);
+    else
+        display = fittedTo(inColors(image->read<float>()), display);
 }
 
 Image<glm::u8vec4> Workbench::Impl::composedView() {
@@ -93,14 +117,15 @@ Image<glm::u8vec4> Workbench::Impl::composedView() {
     return composed(state.panes, images);
 }
 
-void Workbench::Impl::saveImage(const std::string& stem) {
-    const Image<glm::u8vec4> view = composedView();
-    if (view.pixels().empty())
-        return notify(state, "There is no picture before the next frame", true);
-    const auto path = freePath(folders.output, stem, ".png");
-    writePng(path, view);
-    notify(state, "Saved " + path.string());
-    afterglow::log(LogLevel::Info, "saved " + path.string());
+void Workbench::save(const Image<glm::u8vec4>& picture) {
+    impl_->attempt([&] {
+        if (picture.size().x == 0)
+            return notify(state, "There is no picture before the next frame", true);
+        const auto path = freePath(impl_->folders.output, "afterglow", ".png");
+        writePng(path, picture);
+        notify(state, "Saved " + path.string());
+        afterglow::log(LogLevel::Info, "saved " + path.string());
+    });
 }
 
 // Every image that the active filter makes, as 32-bit float, and the picture.
@@ -108,7 +133,7 @@ void Workbench::Impl::saveImageFiles() {
     const std::size_t pane = state.panes.active;
     if (!now || !renderer.hasRun(pane))
         return;
-    const Settings& settings = state.settings();
+    const Settings& settings = settingsThatRan(pane);
     const OutputFolder folder(freePath(folders.output, "afterglow-images", ""));
     int count = 0;
     for (const AovInfo& aov : aovs())
@@ -151,7 +176,7 @@ void Workbench::Impl::saveTake() {
     }
     // Filters settle before the take begins.
     constexpr int kLeadIn = 32;
-    writeFileAtomically(path, experimentText(*take, loadScene(state.sceneName), base, kLeadIn));
+    writeFileAtomically(path, experimentText(*take, renderer.scene(), base, kLeadIn));
     notify(state, "Saved " + path.string() + ": afterglow experiment measures it");
 }
 
@@ -168,18 +193,18 @@ void Workbench::Impl::savePreset(const std::string& name) {
 void Workbench::Impl::recordFrames() {
     if (recorder.isRecording())
         return recorder.stop();
-    if (!now || composedView().size().x == 0)
+    const glm::ivec2 size = composedView().size();
+    if (size.x == 0)
         return;
     const auto frames = state.recordFrames > 0 ? std::optional(state.recordFrames) : std::nullopt;
-    recorder.start(folders.output, composedView().size(), kRecordedRate, frames);
+    recorder.start(folders.output, size, kRecordedRate, frames);
     notify(state, "Recording: F9 ends it");
 }
 
-void Workbench::Impl::enter(Scene scene, const std::string& name) {
-    state.sceneName = name;
-    state.preferences.lastScene = name;
-    if (isFile(name))
-        rememberFile(state.preferences, name);
+void Workbench::Impl::enter(Scene scene, const std::string& sceneName, const std::string& opened) {
+    state.sceneName = state.preferences.lastScene = sceneName;
+    if (isFile(opened))
+        rememberFile(state.preferences, opened);
     enterScene(state, scene);
     renderer.setScene(std::move(scene));
     oracle.end();
@@ -196,26 +221,16 @@ void Workbench::Impl::openExperiment(const std::string& nameOrPath) {
     const Experiment wanted = loadExperiment(nameOrPath);
     RunPlan plan = planOf(wanted);
     Take take = takeOf(wanted, plan);
-    enter(std::move(plan.scene), nameOrPath);
+    enter(std::move(plan.scene), wanted.scene, nameOrPath);
     experiment = wanted.name;
-    state.sceneName = wanted.scene;
-    state.preferences.lastScene = wanted.scene;
-    if (isFile(nameOrPath))
-        rememberFile(state.preferences, nameOrPath);
 
+    setField(state.panes, fieldByKey("signal"), double(wanted.signal));
     const std::size_t count = std::min(wanted.variants.size(), kFilterStates);
     for (std::size_t i = 0; i < count; ++i) {
         const Variant& variant = wanted.variants[i];
-        Pane& pane = state.panes.all[i];
-        const DisplaySettings display = pane.settings.display;
-        const int placement = pane.settings.lighting.gradientSamples;
-        pane = {nameOf(variant.filter) == variant.name ? std::string() : variant.name,
-                settingsOf(variant, wanted.signal)};
-        pane.settings.display = display;
-        pane.settings.lighting.gradientSamples = placement;
+        setPane(state.panes, i, nameOf(variant.filter) == variant.name ? "" : variant.name,
+                settingsOf(variant, wanted.signal));
     }
-    for (std::size_t i = count; i < kFilterStates; ++i)
-        state.panes.all[i].settings.lighting = state.panes.all[0].settings.lighting;
     state.panes.active = 0;
     state.panes.pair = {0, 1};
     chooseLayout(state.panes, layoutFor(count));
@@ -234,10 +249,6 @@ bool Workbench::isExperiment(const std::string& nameOrPath) {
     return std::ranges::find(known, nameOrPath, &ExperimentInfo::name) != known.end();
 }
 
-void Workbench::checkExperiment(const std::string& nameOrPath) {
-    planOf(loadExperiment(nameOrPath));
-}
-
 bool Workbench::playsScene() const {
     return impl_->experiment.empty();
 }
@@ -246,7 +257,7 @@ void Workbench::open(const std::string& nameOrPath) {
     impl_->attempt([&] {
         if (isExperiment(nameOrPath))
             return impl_->openExperiment(nameOrPath);
-        impl_->enter(loadScene(nameOrPath), nameOrPath);
+        impl_->enter(loadScene(nameOrPath), nameOrPath, nameOrPath);
         notify(state, "Opened " + nameOrPath);
     });
 }
@@ -254,8 +265,8 @@ void Workbench::open(const std::string& nameOrPath) {
 void Workbench::paste(const std::string& text) {
     impl_->attempt([&] {
         const Preset preset = parsePreset(text, "clipboard");
-        const Signal signal{};
-        setPane(state.panes, state.panes.active, preset.title, settingsOf(preset.variant, signal));
+        setPane(state.panes, state.panes.active, preset.title,
+                settingsOf(preset.variant, Signal::Both)); // the signal is the frame's
         notify(state, "Pasted the preset " + preset.title);
     });
 }

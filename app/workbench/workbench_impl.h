@@ -14,25 +14,26 @@ struct Workbench::Impl {
     Impl(Workbench& owner, ShaderLibrary& library, const GlInfo& info, WorkbenchFolders places);
 
     // The order of a round, in workbench.cpp.
-    bool renderFrame(double wallSeconds, glm::ivec2 view);
+    void renderFrame(double wallSeconds, glm::ivec2 view);
     FrameMoment prepareFrame(glm::ivec2 view);
     void render(const FrameMoment& moment);
     void measure(const FrameMoment& moment);
     void followFreeze();
     void stepPass(int step);
     void inspectPixel(bool rendered);
-    Pictures::Sources sources() { return {renderer, state, capture, oracle}; }
+    const Settings& settingsThatRan(std::size_t pane) const; ///< of a pane that has
+    Pictures::Sources sources() { return {renderer, runs, state, capture, oracle}; }
 
     // What was requested, in workbench_files.cpp.
     void serveRequests();
-    void saveImage(const std::string& stem);
     void saveImageFiles();
     void saveCurves();
     void saveTake();
     void savePreset(const std::string& name);
     void recordFrames();
     void fitRange();
-    void enter(Scene scene, const std::string& name);
+    /// `opened`: what was asked for, a scene or an experiment in it.
+    void enter(Scene scene, const std::string& sceneName, const std::string& opened);
     void openExperiment(const std::string& nameOrPath);
     Image<glm::u8vec4> composedView();
     /// Does something with files; an Error becomes a notice.
@@ -60,8 +61,10 @@ struct Workbench::Impl {
     std::optional<Inspection> inspection;
     std::optional<HistoryCheckpoint> checkpoint;
     std::optional<FrameMoment> now, before; ///< of the last two frames
-    std::uint32_t nowFrame = 0;
-    bool capturesAll = false; ///< every pass of the next frame
+    std::optional<FrameMoment> checkpointMoment;
+    std::uint32_t nowSeed = 0;
+    std::vector<FilterRun> runs; ///< of the last frame, with the settings that they ran with
+    bool capturesAll = false;    ///< every pass of the next frame
     std::vector<std::string> shaderErrors;
     std::optional<std::string> copied;
     std::string experiment; ///< whose frames the take plays; empty: a scene was opened

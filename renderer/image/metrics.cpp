@@ -91,6 +91,27 @@ Image<float> luminanceOf(const Image<glm::vec4>& image) {
     return result;
 }
 
+Image<float> channelOf(const Image<glm::vec4>& image, int channel) {
+    Image<float> result(image.size());
+    std::ranges::transform(image.pixels(), result.pixels().begin(),
+                           [&](const glm::vec4& c) { return c[channel]; });
+    return result;
+}
+
+Image<float> within(Image<float> image, const Mask& mask) {
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+        if (mask.pixels()[i] == 0)
+            image.pixels()[i] = 0.0f;
+    return image;
+}
+
+Mask both(const Mask& a, const Mask& b) {
+    Mask result = a;
+    for (std::size_t i = 0; i < result.pixels().size(); ++i)
+        result.pixels()[i] &= b.pixels()[i];
+    return result;
+}
+
 std::size_t countOf(const Mask& mask) {
     return std::size_t(std::count_if(mask.pixels().begin(), mask.pixels().end(),
                                      [](std::uint8_t value) { return value != 0; }));

@@ -12,9 +12,12 @@ using Mask = Image<std::uint8_t>;
 
 /// The Rec. 709 luminance of every pixel. Alpha is ignored.
 Image<float> luminanceOf(const Image<glm::vec4>& image);
+Image<float> channelOf(const Image<glm::vec4>& image, int channel);
 
 /// How many pixels of a mask count.
 std::size_t countOf(const Mask& mask);
+Mask both(const Mask& a, const Mask& b);                   ///< where the two are
+Image<float> within(Image<float> image, const Mask& mask); ///< 0 where the mask is
 
 /// The mean of a map, with a mask over its pixels. std::logic_error if none counts, or the mask is
 /// of another size.

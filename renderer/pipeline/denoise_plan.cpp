@@ -56,4 +56,8 @@ DenoisePlan makePlan(Filter filter, const DenoiserSettings& settings) {
     return plan;
 }
 
+bool carriesSamples(const Settings& settings) {
+    return makePlan(settings.filter, settings.denoiser).carrySamples;
+}
+
 } // namespace afterglow

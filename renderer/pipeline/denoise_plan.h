@@ -26,5 +26,6 @@ struct DenoisePlan {
 };
 
 DenoisePlan makePlan(Filter filter, const DenoiserSettings& settings);
+bool carriesSamples(const Settings& settings); ///< whether such a filter wants gradient samples
 
 } // namespace afterglow

@@ -12,6 +12,8 @@ struct Lens {
     float verticalFov = 0.9f;                           ///< radians, in (0, pi)
     float near = 0.05f;                                 ///< metres, > 0
     float far = std::numeric_limits<float>::infinity(); ///< metres, > near; infinity is allowed
+
+    bool operator==(const Lens&) const = default; ///< to the last bit
 };
 
 /// Where a camera stands, where it looks and through what. Right-handed, Y up; it looks along its
@@ -27,6 +29,8 @@ struct Camera {
     /// Reversed depth in [0, 1]: 1 at the near plane, 0 at the far plane (or at infinity).
     /// Clip y points up; the rasterizer's origin is the upper left corner (glClipControl).
     glm::mat4 clipFromView(float aspect) const;
+
+    bool operator==(const Camera&) const = default; ///< to the last bit
 };
 
 /// A camera at `eye` that looks at `target`, upright.

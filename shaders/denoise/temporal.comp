@@ -41,8 +41,6 @@ struct History {
     int reason;
 };
 
-const float kLeastWeight = 0.01;   // of the valid taps together
-const float kDepthEpsilon = 0.005; // of the depth
 
 int tapReason(ivec2 q, uint instance, float depth, float tolerance, vec3 normal) {
     if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))

@@ -75,6 +75,10 @@ struct VarianceParams {
     float unused0;
 };
 
+// How a history is found again, beside what can be set.
+const float kLeastWeight = 0.01;   // of the valid taps together
+const float kDepthEpsilon = 0.005; // of the depth, added to the tolerance
+
 // Why a pixel has no history, in the fourth channel of the control image.
 const int kHistoryKept = 0;
 const int kHistoryNone = 1;      // there is no previous frame

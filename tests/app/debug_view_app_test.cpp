@@ -183,7 +183,7 @@ TEST_CASE("every image of the frame is shown from the texture that its file is w
     for (const ImageDisplay& display : displays) {
         CAPTURE(display.name);
         const AovSource source = sourceOf(renderer, aovByName(display.name));
-        DebugViewParams params = debugViewParams(display, source);
+        DebugViewParams params = debugViewParams(display, source, size);
         pass.run(frame, source.texture, direct, params);
         const Image<glm::vec4> values = readAov(renderer, aovByName(display.name));
         GpuTexture copy("values", PixelFormat::RGBA32F, values.size());

@@ -33,22 +33,30 @@ struct Watched {
         lights.resize(renderer.scene().lights.size());
         camera = cameraAt(renderer.scene(), poseAt(renderer.scene(), 0.0));
     }
-    void render(std::span<const FilterRun> runs) {
-        moment.hasBefore = frame > 0;
-        moment.secondsBefore = moment.now.seconds;
-        moment.lightsBefore = moment.lights;
-        moment.lights = lights;
-        moment.now = {.camera = camera,
-                      .seconds = secondsPerFrame * double(frame),
-                      .frame = frame,
-                      .seed = 7,
-                      .lights = lights};
-        renderer.render(moment.now, runs);
+    void render(std::span<const FilterRun> filters) {
+        runs.assign(filters.begin(), filters.end());
+        if (frame > 0)
+            moment.before = moment.now;
+        moment.seed = 7;
+        moment.now = {.seconds = secondsPerFrame * double(frame),
+                      .camera = camera,
+                      .lights = lights,
+                      .marks = {},
+                      .step = false};
+        renderer.render(inputNow(), runs);
         ++frame;
     }
     void render(const Settings& settings) {
         const FilterRun run{0, settings};
         render({&run, 1});
+    }
+
+    FrameInput inputNow() const {
+        return {.camera = camera,
+                .seconds = moment.now.seconds,
+                .frame = frame,
+                .seed = 7,
+                .lights = lights};
     }
 
     Renderer renderer;
@@ -57,7 +65,17 @@ struct Watched {
     double secondsPerFrame = 0.0;
     std::uint32_t frame = 0;
     OracleView::Moment moment;
+    std::vector<FilterRun> runs; ///< of the last frame
 };
+
+FrameMoment momentOf(const Truths& truths, const RunPlan& plan, int frame) {
+    const FrameInput input = truths.inputAt(frame);
+    return {.seconds = input.seconds,
+            .camera = input.camera,
+            .lights = plan.moments[momentAt(plan.moments, frame)].lights,
+            .marks = {},
+            .step = false};
+}
 
 void finish(OracleView& oracle) {
     while (!oracle.isDone())
@@ -68,9 +86,8 @@ OracleView makeOracle() {
     return OracleView(testShaders(), glInfo(testContext()));
 }
 
-Image<float> readImage(OracleView& oracle, OracleImage image, std::size_t state,
-                       const Settings& settings) {
-    const GpuTexture* texture = oracle.image(image, state, settings);
+Image<float> readImage(OracleView& oracle, OracleImage image, std::size_t state) {
+    const GpuTexture* texture = oracle.image(image, state);
     REQUIRE(texture != nullptr);
     return texture->read<float>();
 }
@@ -125,34 +142,32 @@ TEST_CASE("the oracle of a frame says what an experiment measures there, bit for
         watched.setScene(plan.scene);
         watched.resize(kSize);
         const Settings settings = settingsOf(Filter::Asvgf);
+        const FilterRun run{0, settings};
         for (int frame = 0; frame < 5; ++frame) {
             CAPTURE(frame);
             watched.render(truths.inputAt(frame), settings);
             if (frame < 2)
                 continue;
             OracleView oracle = makeOracle();
-            oracle.begin(watched,
-                         {.now = truths.inputAt(frame),
-                          .lights = plan.moments[momentAt(plan.moments, frame)].lights,
-                          .secondsBefore = experiment.seconds(frame - 1),
-                          .lightsBefore = plan.moments[momentAt(plan.moments, frame - 1)].lights,
-                          .hasBefore = true},
-                         settings, experiment.referenceSamples);
+            oracle.begin(
+                watched,
+                {momentOf(truths, plan, frame), experiment.seed, momentOf(truths, plan, frame - 1)},
+                {&run, 1}, experiment.referenceSamples);
             finish(oracle);
             const Truth& truth = truths.at(frame);
             const FrameImages images = readFrame(watched, settings, true);
-            CHECK(oracle.rmse(0, settings) == rmse(images.lit, truth.lit, &truth.foreground));
-            CHECK(differingPixels(readImage(oracle, OracleImage::Error, 0, settings),
+            CHECK(oracle.rmse(0) == rmse(images.lit, truth.lit, &truth.foreground));
+            CHECK(differingPixels(readImage(oracle, OracleImage::Error, 0),
                                   minus(luminanceOf(images.lit), luminanceOf(truth.lit),
                                         truth.foreground)) == 0);
 
             const bool isFirst = frame == 3;
             const Image<float> ideal =
                 isFirst ? truth.idealLambda : Image<float>(images.lambda.size());
-            CHECK(differingPixels(readImage(oracle, OracleImage::Lambda, 0, settings), ideal) == 0);
+            CHECK(differingPixels(readImage(oracle, OracleImage::Lambda, 0), ideal) == 0);
             CHECK((largest(ideal) > 0.1) == isFirst);
             CHECK(differingPixels(
-                      readImage(oracle, OracleImage::LambdaError, 0, settings),
+                      readImage(oracle, OracleImage::LambdaError, 0),
                       minus(images.lambda, ideal, isFirst ? truth.litFirst : truth.litLater)) == 0);
 
             Image<float> alpha =
@@ -164,8 +179,8 @@ TEST_CASE("the oracle of a frame says what an experiment measures there, bit for
                     alpha.pixels()[i] = 0.0f;
             }
             CHECK(largest(alpha) > 0.5);
-            CHECK(differingPixels(readImage(oracle, OracleImage::Alpha, 0, settings), alpha) == 0);
-            CHECK(differingPixels(readImage(oracle, OracleImage::AlphaError, 0, settings),
+            CHECK(differingPixels(readImage(oracle, OracleImage::Alpha, 0), alpha) == 0);
+            CHECK(differingPixels(readImage(oracle, OracleImage::AlphaError, 0),
                                   minus(images.alpha, alpha, counts)) == 0);
         }
     }
@@ -180,20 +195,20 @@ TEST_CASE("with the only light gone the ideal lambda is 1 where it shone, and A-
         watched.render(settings);
     }
     OracleView oracle = makeOracle();
-    oracle.begin(watched.renderer, watched.moment, settings, 16);
+    oracle.begin(watched.renderer, watched.moment, watched.runs, 16);
     finish(oracle);
-    const Image<float> ideal = readImage(oracle, OracleImage::Lambda, 0, settings);
+    const Image<float> ideal = readImage(oracle, OracleImage::Lambda, 0);
     CHECK(std::ranges::all_of(ideal.pixels(), [](float l) { return l == 0.0f || l == 1.0f; }));
     CHECK(std::ranges::count(ideal.pixels(), 1.0f) > 100); // of 273
-    const Image<float> error = readImage(oracle, OracleImage::LambdaError, 0, settings);
+    const Image<float> error = readImage(oracle, OracleImage::LambdaError, 0);
     // Where no sample has landed around, it says nothing.
     const auto missed = std::ranges::count_if(error.pixels(), [](float e) { return e < -1e-3f; });
     CHECK(missed < 0.03 * double(std::ranges::count(ideal.pixels(), 1.0f))); // 2 of 118
     CHECK(std::ranges::all_of(error.pixels(), [](float e) { return e <= 0.0f; }));
     // The truth is black, and a history of light is all error.
-    const auto reference = oracle.image(OracleImage::Reference, 0, settings)->read<glm::vec4>();
+    const auto reference = oracle.image(OracleImage::Reference, 0)->read<glm::vec4>();
     CHECK(reference.size() == kSize);
-    const Image<float> alpha = readImage(oracle, OracleImage::Alpha, 0, settings);
+    const Image<float> alpha = readImage(oracle, OracleImage::Alpha, 0);
     CHECK(std::ranges::count(alpha.pixels(), 1.0f) > 800);
 }
 
@@ -206,9 +221,9 @@ TEST_CASE("where nothing changes the ideal lambda is 0, whether or not time goes
         for (int i = 0; i < 3; ++i)
             watched.render(settings);
         OracleView oracle = makeOracle();
-        oracle.begin(watched.renderer, watched.moment, settings, 4);
+        oracle.begin(watched.renderer, watched.moment, watched.runs, 4);
         finish(oracle);
-        CHECK(largest(readImage(oracle, OracleImage::Lambda, 0, settings)) == 0.0);
+        CHECK(largest(readImage(oracle, OracleImage::Lambda, 0)) == 0.0);
     }
 }
 
@@ -220,11 +235,11 @@ TEST_CASE("two references of one moment are equal where nothing that can be seen
         watched.lights[1].on = i < 2;
         watched.render(settings);
     }
-    REQUIRE(watched.moment.lights != watched.moment.lightsBefore);
+    REQUIRE(watched.moment.now.lights != watched.moment.before->lights);
     OracleView oracle = makeOracle();
-    oracle.begin(watched.renderer, watched.moment, settings, 4);
+    oracle.begin(watched.renderer, watched.moment, watched.runs, 4);
     finish(oracle);
-    CHECK(largest(readImage(oracle, OracleImage::Lambda, 0, settings)) == 0.0);
+    CHECK(largest(readImage(oracle, OracleImage::Lambda, 0)) == 0.0);
 }
 
 TEST_CASE("the error of a picture falls towards that of a converged one, and so does rmse") {
@@ -234,20 +249,20 @@ TEST_CASE("the error of a picture falls towards that of a converged one, and so 
     for (int i = 0; i < 16; ++i)
         watched.render(runs);
     OracleView oracle = makeOracle();
-    oracle.begin(watched.renderer, watched.moment, runs[0].settings, 128);
+    oracle.begin(watched.renderer, watched.moment, watched.runs, 128);
     finish(oracle);
-    const double raw = oracle.rmse(0, runs[0].settings).value();
-    const double filtered = oracle.rmse(2, runs[1].settings).value();
+    const double raw = oracle.rmse(0).value();
+    const double filtered = oracle.rmse(2).value();
     CHECK(raw > 0.1);
     CHECK(filtered < 0.5 * raw);
 
-    const auto error = readImage(oracle, OracleImage::Error, 0, runs[0].settings);
+    const auto error = readImage(oracle, OracleImage::Error, 0);
     double sum = 0.0;
     for (const float e : error.pixels())
         sum += e;
     CHECK(std::abs(sum / double(error.pixels().size())) < 0.1 * raw); // noise has no bias
-    CHECK_FALSE(oracle.rmse(1, runs[0].settings));
-    CHECK(oracle.image(OracleImage::Error, 1, runs[0].settings) == nullptr);
+    CHECK_FALSE(oracle.rmse(1));
+    CHECK(oracle.image(OracleImage::Error, 1) == nullptr);
 }
 
 TEST_CASE("a converged picture has next to no error") {
@@ -257,17 +272,17 @@ TEST_CASE("a converged picture has next to no error") {
     watched.render(settings);
     const double noisy = [&] {
         OracleView oracle = makeOracle();
-        oracle.begin(watched.renderer, watched.moment, settings, 64);
+        oracle.begin(watched.renderer, watched.moment, watched.runs, 64);
         finish(oracle);
-        return oracle.rmse(0, settings).value();
+        return oracle.rmse(0).value();
     }();
-    watched.renderer.beginReference(watched.moment.now, settings);
+    watched.renderer.beginReference(watched.inputNow(), settings);
     watched.renderer.addReferenceSamples(64);
     watched.renderer.finishReference();
     OracleView oracle = makeOracle();
-    oracle.begin(watched.renderer, watched.moment, settings, 64);
+    oracle.begin(watched.renderer, watched.moment, watched.runs, 64);
     finish(oracle);
-    CHECK(oracle.rmse(0, settings).value() < 0.1 * noisy); // two seeds of 64 samples
+    CHECK(oracle.rmse(0).value() < 0.1 * noisy); // two seeds of 64 samples
 }
 
 TEST_CASE("an oracle says nothing of what a filter does not have") {
@@ -277,19 +292,18 @@ TEST_CASE("an oracle says nothing of what a filter does not have") {
                                 {1, settingsOf(Filter::Percentile)},
                                 {3, settingsOf(Filter::Fixed)}};
     OracleView oracle = makeOracle();
-    CHECK_THROWS_AS(oracle.begin(watched.renderer, watched.moment, runs[0].settings, 2),
-                    std::logic_error);
+    CHECK_THROWS_AS(oracle.begin(watched.renderer, watched.moment, runs, 2), std::logic_error);
     watched.render(runs);
     for (const bool hasBefore : {false, true}) {
         if (hasBefore)
             watched.render(runs);
-        oracle.begin(watched.renderer, watched.moment, runs[0].settings, 2);
+        oracle.begin(watched.renderer, watched.moment, watched.runs, 2);
         for (std::size_t image = 0; image < kOracleImages; ++image)
-            CHECK(oracle.image(OracleImage(image), 0, runs[0].settings) == nullptr);
-        CHECK_FALSE(oracle.rmse(0, runs[0].settings));
+            CHECK(oracle.image(OracleImage(image), 0) == nullptr);
+        CHECK_FALSE(oracle.rmse(0));
         finish(oracle);
         const auto has = [&](OracleImage image, std::size_t run) {
-            return oracle.image(image, runs[run].state, runs[run].settings) != nullptr;
+            return oracle.image(image, runs[run].state) != nullptr;
         };
         for (std::size_t run = 0; run < runs.size(); ++run) {
             CHECK(has(OracleImage::Reference, run));
@@ -301,26 +315,26 @@ TEST_CASE("an oracle says nothing of what a filter does not have") {
         }
         // Without a history the ideal is to take the newest sample.
         if (!hasBefore) {
-            const Image<float> alpha = readImage(oracle, OracleImage::Alpha, 3, runs[2].settings);
+            const Image<float> alpha = readImage(oracle, OracleImage::Alpha, 3);
             CHECK(std::ranges::count(alpha.pixels(), 1.0f) ==
                   std::ptrdiff_t(countOf(foregroundOf(watched.renderer))));
-            CHECK(largest(readImage(oracle, OracleImage::AlphaError, 3, runs[2].settings)) == 0.0);
+            CHECK(largest(readImage(oracle, OracleImage::AlphaError, 3)) == 0.0);
         }
     }
     const Settings adaptive = settingsOf(Filter::Asvgf);
     watched.render(adaptive);
-    oracle.begin(watched.renderer, watched.moment, adaptive, 2);
+    oracle.begin(watched.renderer, watched.moment, watched.runs, 2);
     finish(oracle);
-    CHECK(oracle.image(OracleImage::Lambda, 0, adaptive) != nullptr);
+    CHECK(oracle.image(OracleImage::Lambda, 0) != nullptr);
     oracle.end();
     CHECK_FALSE(oracle.isActive());
     CHECK_FALSE(oracle.isDone());
     CHECK(oracle.progress() == 0.0);
-    CHECK(oracle.image(OracleImage::Lambda, 0, adaptive) == nullptr);
+    CHECK(oracle.image(OracleImage::Lambda, 0) == nullptr);
     CHECK_FALSE(oracle.advance(1.0));
 }
 
-TEST_CASE("an image is made once, and again for other settings") {
+TEST_CASE("an image is made once, and by the settings that the filter ran with") {
     const GlCheck noGlMessages;
     Watched watched("tiny");
     Settings settings = settingsOf(Filter::Asvgf);
@@ -328,17 +342,21 @@ TEST_CASE("an image is made once, and again for other settings") {
     watched.lights[0].power = 0.5f;
     watched.render(settings);
     OracleView oracle = makeOracle();
-    oracle.begin(watched.renderer, watched.moment, settings, 4);
-    finish(oracle);
-    const Image<float> first = readImage(oracle, OracleImage::Lambda, 0, settings);
-    const GLuint name = oracle.image(OracleImage::Lambda, 0, settings)->id();
-    settings.display.exposure = 2.0f; // nothing to do with it
-    CHECK(oracle.image(OracleImage::Lambda, 0, settings)->id() == name);
+    const auto lambdaOf = [&](std::span<const FilterRun> runs) {
+        oracle.begin(watched.renderer, watched.moment, runs, 4);
+        finish(oracle);
+        return readImage(oracle, OracleImage::Lambda, 0);
+    };
+    const Image<float> first = lambdaOf(watched.runs);
     CHECK(largest(first) > 0.1);
-    settings.denoiser.gradient.deltaFloor = 1e6f;
-    CHECK(largest(readImage(oracle, OracleImage::Lambda, 0, settings)) == 0.0);
-    settings.denoiser.gradient.deltaFloor = Settings{}.denoiser.gradient.deltaFloor;
-    CHECK(differingPixels(readImage(oracle, OracleImage::Lambda, 0, settings), first) == 0);
+    const GLuint name = oracle.image(OracleImage::Lambda, 0)->id();
+    CHECK(oracle.image(OracleImage::Lambda, 0)->id() == name);
+    settings.display.exposure = 2.0f; // nothing to do with it
+    FilterRun other{0, settings};
+    CHECK(differingPixels(lambdaOf({&other, 1}), first) == 0);
+    other.settings.denoiser.gradient.deltaFloor = 1e6f;
+    CHECK(largest(lambdaOf({&other, 1})) == 0.0);
+    CHECK(differingPixels(lambdaOf(watched.runs), first) == 0);
 }
 
 TEST_CASE("the frames of a watched renderer are the same bits with an oracle in between") {
@@ -360,7 +378,7 @@ TEST_CASE("the frames of a watched renderer are the same bits with an oracle in 
                               alone.renderer.targets().samples.read<glm::uvec4>()) == 0);
         const GLint block = frameBlock();
         if (frame == 2 || frame == 3)
-            oracle.begin(watched.renderer, watched.moment, runs[0].settings, 8);
+            oracle.begin(watched.renderer, watched.moment, watched.runs, 8);
         oracle.advance(0.0);
         CHECK(frameBlock() == block); // what shows the images of a frame reads it too
     }
@@ -372,13 +390,15 @@ TEST_CASE("the frames of a watched renderer are the same bits with an oracle in 
         still.render(runs);
     }
     OracleView undisturbed = makeOracle();
-    undisturbed.begin(still.renderer, still.moment, runs[0].settings, 8);
+    undisturbed.begin(still.renderer, still.moment, still.runs, 8);
     finish(undisturbed);
     CHECK_FALSE(oracle.isDone());
     finish(oracle);
     for (const OracleImage image : {OracleImage::Error, OracleImage::Lambda, OracleImage::Alpha})
-        CHECK(differingPixels(readImage(oracle, image, 1, runs[0].settings),
-                              readImage(undisturbed, image, 1, runs[0].settings)) == 0);
+        for (const FilterRun& run : runs)
+            if (image != OracleImage::Lambda || run.settings.filter == Filter::Asvgf)
+                CHECK(differingPixels(readImage(oracle, image, run.state),
+                                      readImage(undisturbed, image, run.state)) == 0);
 }
 
 TEST_CASE("progress rises from 0 to 1, in portions of about the time that is asked for") {
@@ -391,7 +411,7 @@ TEST_CASE("progress rises from 0 to 1, in portions of about the time that is ask
     }
     OracleView oracle = makeOracle();
     CHECK(oracle.progress() == 0.0);
-    oracle.begin(watched.renderer, watched.moment, settings, 200);
+    oracle.begin(watched.renderer, watched.moment, watched.runs, 200);
     CHECK(oracle.isActive());
     CHECK_FALSE(oracle.isDone());
     CHECK(oracle.progress() == 0.0);
@@ -422,7 +442,7 @@ TEST_CASE("progress rises from 0 to 1, in portions of about the time that is ask
     CHECK(times[std::size_t(calls) / 2] < 200.0);
 
     // No time at all is one sample.
-    oracle.begin(watched.renderer, watched.moment, settings, 2);
+    oracle.begin(watched.renderer, watched.moment, watched.runs, 2);
     for (int i = 0; i < 4; ++i)
         CHECK(oracle.advance(0.0) == (i == 3));
 }
@@ -435,17 +455,17 @@ TEST_CASE("an oracle of a picture without surfaces, or of one pixel, says so cal
     away.render(settings);
     away.render(settings);
     OracleView oracle = makeOracle();
-    oracle.begin(away.renderer, away.moment, settings, 2);
+    oracle.begin(away.renderer, away.moment, away.runs, 2);
     finish(oracle);
-    CHECK_FALSE(oracle.rmse(0, settings));
+    CHECK_FALSE(oracle.rmse(0));
     for (const OracleImage image : {OracleImage::Error, OracleImage::Lambda, OracleImage::Alpha})
-        CHECK(largest(readImage(oracle, image, 0, settings)) == 0.0);
+        CHECK(largest(readImage(oracle, image, 0)) == 0.0);
 
     Watched one("tiny", {1, 1});
     one.render(settings);
     one.render(settings);
-    oracle.begin(one.renderer, one.moment, settings, 2);
+    oracle.begin(one.renderer, one.moment, one.runs, 2);
     finish(oracle);
-    CHECK(oracle.image(OracleImage::LambdaError, 0, settings)->size() == glm::ivec2(1));
-    CHECK(oracle.rmse(0, settings).value() >= 0.0);
+    CHECK(oracle.image(OracleImage::LambdaError, 0)->size() == glm::ivec2(1));
+    CHECK(oracle.rmse(0).value() >= 0.0);
 }

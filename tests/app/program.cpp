@@ -23,14 +23,19 @@ void redirect(int stream, const std::string& file) {
 
 } // namespace
 
-Run afterglow(const std::vector<std::string>& words,
-              const std::map<std::string, std::string>& environment) {
-    const char* program = std::getenv("AFTERGLOW_BIN");
+std::string programPath() {
+    const char* const program = std::getenv("AFTERGLOW_BIN");
     if (!program)
         throw std::runtime_error("AFTERGLOW_BIN is not set: which program is to be tested?");
+    return program;
+}
+
+Run afterglow(const std::vector<std::string>& words,
+              const std::map<std::string, std::string>& environment) {
+    const std::string program = programPath();
     const TemporaryFolder folder;
     const std::string out = folder / "out", err = folder / "err";
-    std::vector<char*> arguments{const_cast<char*>(program)};
+    std::vector<char*> arguments{const_cast<char*>(program.c_str())};
     for (const std::string& word : words)
         arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -43,7 +48,7 @@ Run afterglow(const std::vector<std::string>& words,
             setenv(name.c_str(), value.c_str(), 1);
         redirect(STDOUT_FILENO, out);
         redirect(STDERR_FILENO, err);
-        execv(program, arguments.data());
+        execv(program.c_str(), arguments.data());
         _exit(126);
     }
     int status = 0;

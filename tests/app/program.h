@@ -16,7 +16,10 @@ struct Run {
     std::string out, err;
 };
 
-/// Runs the program of the environment variable AFTERGLOW_BIN with these words and waits for it.
+/// The path in the environment variable AFTERGLOW_BIN; std::runtime_error if it is not set.
+std::string programPath();
+
+/// Runs this program with these words and waits for it.
 Run afterglow(const std::vector<std::string>& words,
               const std::map<std::string, std::string>& environment = {});
 

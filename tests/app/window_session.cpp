@@ -18,10 +18,6 @@ using Clock = std::chrono::steady_clock;
 // Between two movements of a hand, so that the program sees more than the last.
 constexpr const char* kMoment = "0.03";
 
-std::string numberOf(Button button) {
-    return std::to_string(int(button));
-}
-
 } // namespace
 
 double meanOf(const Picture& picture) {
@@ -49,13 +45,6 @@ Picture crop(const Picture& picture, glm::ivec2 min, glm::ivec2 size) {
         for (int x = 0; x < size.x; ++x)
             part({x, y}) = picture(min + glm::ivec2(x, y));
     return part;
-}
-
-std::string programPath() {
-    const char* const program = std::getenv("AFTERGLOW_BIN");
-    if (!program)
-        throw std::runtime_error("AFTERGLOW_BIN is not set: which program is to be tested?");
-    return program;
 }
 
 WindowSession::WindowSession(const std::vector<std::string>& words, const WindowSetup& setup)
@@ -90,14 +79,6 @@ void WindowSession::keys(std::vector<std::string> names) {
     act(names);
 }
 
-void WindowSession::type(const std::string& text) {
-    act({"type", "--delay", "30", text});
-}
-
-void WindowSession::hold(const std::string& key, double seconds) {
-    act({"keydown", key, "sleep", std::to_string(seconds), "keyup", key});
-}
-
 std::vector<std::string> WindowSession::at(glm::ivec2 place) const {
     return {"mousemove", "--window", window_, std::to_string(place.x), std::to_string(place.y),
             "sleep",     kMoment};
@@ -107,35 +88,15 @@ void WindowSession::moveTo(glm::ivec2 place) {
     act(at(place));
 }
 
-void WindowSession::click(glm::ivec2 place, Button button) {
-    std::vector<std::string> words = at(place);
-    words.insert(words.end(), {"mousedown", numberOf(button), "sleep", kMoment, "mouseup",
-                               numberOf(button), "sleep", kMoment});
-    act(words);
-}
-
-void WindowSession::doubleClick(glm::ivec2 place) {
-    std::vector<std::string> words = at(place);
-    words.insert(words.end(), {"click", "--repeat", "2", "--delay", "50", "1"});
-    act(words);
-}
-
-void WindowSession::drag(glm::ivec2 from, glm::ivec2 to, Button button) {
+void WindowSession::drag(glm::ivec2 from, glm::ivec2 to) {
     constexpr int kSteps = 4;
     std::vector<std::string> words = at(from);
-    words.insert(words.end(), {"mousedown", numberOf(button), "sleep", kMoment});
+    words.insert(words.end(), {"mousedown", "1", "sleep", kMoment});
     for (int i = 1; i <= kSteps; ++i) {
         const std::vector<std::string> step = at(from + (to - from) * i / kSteps);
         words.insert(words.end(), step.begin(), step.end());
     }
-    words.insert(words.end(), {"mouseup", numberOf(button), "sleep", kMoment});
-    act(words);
-}
-
-void WindowSession::scroll(glm::ivec2 place, int notches) {
-    std::vector<std::string> words = at(place);
-    words.insert(words.end(), {"click", "--repeat", std::to_string(std::abs(notches)), "--delay",
-                               "30", notches > 0 ? "4" : "5"});
+    words.insert(words.end(), {"mouseup", "1", "sleep", kMoment});
     act(words);
 }
 

@@ -21,12 +21,6 @@ double roughnessOf(const Picture& picture);
 bool same(const Picture& a, const Picture& b);
 Picture crop(const Picture& picture, glm::ivec2 min, glm::ivec2 size);
 
-/// The path in AFTERGLOW_BIN; std::runtime_error if it is not set.
-std::string programPath();
-
-/// X's numbers of the mouse buttons.
-enum class Button { Left = 1, Middle = 2, Right = 3 };
-
 struct WindowSetup {
     glm::ivec2 size{240, 160}; ///< of the window, for --size; 0: the program's own idea
     glm::ivec2 screen{900, 700};
@@ -48,15 +42,10 @@ public:
 
     // The keyboard; keys as xdotool names them: "p", "shift+F12", "ctrl+s", "Escape".
     void keys(std::vector<std::string> names);
-    void type(const std::string& text);
-    void hold(const std::string& key, double seconds);
 
     // The mouse.
     void moveTo(glm::ivec2 at);
-    void click(glm::ivec2 at, Button button = Button::Left);
-    void doubleClick(glm::ivec2 at);
-    void drag(glm::ivec2 from, glm::ivec2 to, Button button = Button::Left);
-    void scroll(glm::ivec2 at, int notches); ///< positive: away from the hand
+    void drag(glm::ivec2 from, glm::ivec2 to); ///< with the left button
     /// From where the pointer is, with the right button: the program may hide and hold the pointer.
     void look(glm::ivec2 moved);
     void drop(const std::vector<std::filesystem::path>& files, glm::ivec2 at = {60, 60});
@@ -89,8 +78,7 @@ public:
 
     // What it leaves.
     const std::filesystem::path& runFolder() const { return run_; } ///< it works and saves there
-    const std::filesystem::path& configHome() const { return config_; }
-    std::string log() const; ///< stdout and stderr so far
+    std::string log() const;                                        ///< stdout and stderr so far
     std::optional<int> exitCode(double seconds = 20.0) { return program_->wait(seconds); }
     /// ctrl+q, and the exit code.
     std::optional<int> quit();

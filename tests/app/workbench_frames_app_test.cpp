@@ -356,11 +356,70 @@ TEST_CASE("a frozen moment converges, is compared, and lives on as if nothing ha
         CHECK(bench.workbench.legend(0).note.empty());
         CHECK(differingPixels(bench.picture(0), judge.picture(0)) > 500);
     }
+    // A range is fitted to what is shown, and more samples are another reference.
+    show(bench.state, Shown::Kind::Oracle, std::size_t(OracleImage::Error));
+    const ImageDisplay wide = bench.state.oracleDisplays[0];
+    bench.state.wanted.fitRange = true;
+    bench.round();
+    CHECK_FALSE(bench.state.oracleDisplays[0] == wide);
+    CHECK(bench.state.oracleDisplays[0].low == -bench.state.oracleDisplays[0].high);
+    bench.state.oracleSamples = 2;
+    bench.round();
+    CHECK(bench.workbench.oracle().samples() == 2);
+    while (!bench.workbench.oracle().isDone())
+        bench.round();
+    CHECK(bench.workbench.oracleRmse(0).value() > *rmse);
     bench.press('U');
     CHECK_FALSE(bench.state.time.paused);
     for (Bench* each : {&bench, &judge})
         each->frames(2);
     CHECK(differingPixels(bench.picture(0), judge.picture(0)) == 0);
+}
+
+TEST_CASE("in the first frame of a loop's round the truth looks back to before the loop") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    bench.state.oracleSamples = 4;
+    bench.press('1'); // off
+    bench.frames(6);
+    bench.press('I');
+    bench.frames(2);
+    bench.press('1'); // on
+    bench.frames(2);
+    bench.press('O');
+    bench.frames(5); // the first of the second round: dark, after a bright one
+    const auto changes = [&] {
+        toggleFreeze(bench.state);
+        while (!bench.workbench.oracle().isDone())
+            bench.round();
+        show(bench.state, Shown::Kind::Oracle, std::size_t(OracleImage::Lambda));
+        const double mean = meanOf(bench.picture(0));
+        toggleFreeze(bench.state);
+        return mean;
+    };
+    const double inFirst = changes();
+    bench.frames(2); // the light goes on in this one
+    CHECK(changes() > inFirst + 20.0);
+    bench.frames(3); // the first of the third round
+    CHECK(changes() == inFirst);
+}
+
+TEST_CASE("an inspected pixel is told as it was filtered, whatever the pane is set to since") {
+    const GlCheck noGlMessages;
+    Bench bench("tiny");
+    bench.state.showInspector = true;
+    bench.state.inspected = PanePixel{0, {30, 20}};
+    bench.frames(4);
+    bench.press('P');
+    const auto groups = [&] { return bench.workbench.inspection()->groups.size(); };
+    const std::size_t before = groups();
+    chooseFilter(bench.state, Filter::None);
+    bench.state.inspected = PanePixel{0, {31, 20}};
+    bench.round();
+    CHECK(groups() == before);
+    bench.press('N');
+    bench.round();
+    CHECK(groups() < before);
 }
 
 TEST_CASE("pictures, images of the frame and recordings are files") {
@@ -442,6 +501,12 @@ TEST_CASE("presets go from pane to pane through the clipboard and into files") {
     bench.state.wanted.savePreset = "paper"; // built in
     bench.round();
     CHECK(bench.state.notice.isError);
+    bench.state.wanted.removePreset = "mine";
+    bench.round();
+    CHECK_FALSE(bench.state.notice.isError);
+    CHECK(bench.state.notice.text == "Removed the preset mine");
+    CHECK(bench.workbench.presets().find("mine") == nullptr);
+    CHECK_FALSE(std::filesystem::exists(bench.folder.path() / "presets" / "mine.json"));
 }
 
 TEST_CASE("a difference of a filter with itself is black, and of two filters it is not") {
@@ -458,8 +523,22 @@ TEST_CASE("a difference of a filter with itself is black, and of two filters it 
     CHECK(picture > 10.0);
     // Of an image behind the picture, with its sign: gray is no difference.
     const auto all = aovs();
-    const auto variance = std::ranges::find(all, "history", &AovInfo::name);
-    show(bench.state, Shown::Kind::Aov, std::size_t(variance - all.begin()));
-    bench.frames(1);
-    CHECK(bench.workbench.picture(0));
+    const auto showNamed = [&](std::string_view name) {
+        show(bench.state, Shown::Kind::Aov,
+             std::size_t(std::ranges::find(all, name, &AovInfo::name) - all.begin()));
+        bench.frames(1);
+        CHECK(bench.workbench.picture(0));
+        return bench.workbench.legend(0);
+    };
+    const PictureLegend history = showNamed("history");
+    CHECK(history.name == "difference of history");
+    CHECK(history.note.empty());
+    REQUIRE(history.display);
+    CHECK(history.display->map == gpu::kMapSigned);
+    CHECK(history.display->low == -history.display->high);
+    CHECK(history.display->high == doctest::Approx(127.0 / 64.0)); // of 1 to 128, at gain 64
+    // What holds names and not numbers is left alone.
+    const PictureLegend instance = showNamed("instance");
+    CHECK_FALSE(instance.note.empty());
+    CHECK(instance.display->map == gpu::kMapRadiance);
 }

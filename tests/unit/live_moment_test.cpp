@@ -38,7 +38,7 @@ TEST_CASE("a frame in which nothing happens has no marks, the very first one inc
         const FrameMoment moment = renderFrame(state);
         CHECK(moment.marks.empty());
         CHECK_FALSE(moment.step);
-        CHECK(sameView(moment.camera, state.home));
+        CHECK(moment.camera == state.home);
         CHECK(moment.lights == state.lights);
     }
 }
@@ -264,16 +264,16 @@ TEST_CASE("a take has its own camera and lights, and who leaves it goes on with 
         play(state.time, take, true);
         for (std::size_t i = 0; i < 2; ++i) {
             renderFrame(state);
-            CHECK(sameView(state.camera, take.frames[i].camera));
+            CHECK(state.camera == take.frames[i].camera);
             CHECK(state.lights[0] == (lights > 0 ? take.frames[i].lights[0] : LightState{}));
             CHECK(state.lights[1] == LightState{}); // what a take does not name is as in the scene
         }
         press(state, {Key::Backspace});
         CHECK_FALSE(state.time.playing);
-        CHECK(sameView(state.camera, take.frames[1].camera));
+        CHECK(state.camera == take.frames[1].camera);
         const FrameMoment moment = renderFrame(state);
         CHECK(moment.marks.empty());
-        CHECK(sameView(moment.camera, take.frames[1].camera));
+        CHECK(moment.camera == take.frames[1].camera);
     }
 }
 
@@ -282,7 +282,7 @@ TEST_CASE("leaving no take changes nothing") {
     const Camera before = state.camera;
     press(state, '1');
     press(state, {Key::Backspace});
-    CHECK(sameView(state.camera, before));
+    CHECK(state.camera == before);
     CHECK_FALSE(state.lights[0].on);
     CHECK(renderFrame(state).marks == Texts{"key off"});
 }

@@ -1,4 +1,4 @@
-#include "app/workbench/live_response.h"
+#include "tests/unit/light_bench.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,105 +8,15 @@
 #include <doctest/doctest.h>
 
 using namespace afterglow;
+using namespace afterglow::test;
 using doctest::Approx;
 using Status = LiveResponse::Status;
-
-namespace {
-
-/// A number in [0, 1) that depends on both in no visible way (a round of splitmix64).
-double noise(std::uint64_t seed, std::uint64_t index) {
-    std::uint64_t z =
-        seed * 0x9e3779b97f4a7c15u + index * 0xd1342543de82ef95u + 0x632be59bd9b4e019u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-/// A pane whose filter is an exponential average that shows `bias` times what it has.
-struct Pane {
-    double alpha = 1.0, bias = 1.0;
-};
-
-/// A light in front of some panes, frame by frame.
-struct Bench {
-    ProbeLog log;
-    std::uint32_t frame = 0;
-    double light = 1.0;
-    std::vector<Pane> panes;
-    std::vector<double> state;
-    std::uint64_t seed = 0;
-    /// Whether the signal is noisy: 0 or twice the light, at even odds, in each pixel.
-    bool noisy = false;
-    int pixels = 100;
-    std::optional<double> secondLight; ///< at probe B, if it is there
-    std::array<bool, kPanes> runs{true, true, true, true};
-
-    explicit Bench(Pane first) : panes{first}, state{light} {}
-    Bench(Pane first, Pane second) : panes{first, second}, state{light, light} {}
-
-    ProbeSample rawSample(double mean) const {
-        double sum = 0.0;
-        for (int i = 0; i < pixels; ++i)
-            sum += noisy && noise(seed, std::uint64_t(frame) * 4096 + std::uint64_t(i)) < 0.5
-                       ? 0.0
-                       : (noisy ? 2.0 * mean : mean);
-        const double raw = sum / pixels;
-        // Among values that are 0 or 2 mean.
-        return {.pixels = std::uint64_t(pixels),
-                .rawLit = raw,
-                .rawVariance = noisy ? raw * (2.0 * mean - raw) : 0.0};
-    }
-
-    void step(std::vector<ProbeMark> marks = {}) {
-        ProbeFrame now;
-        now.frame = frame;
-        now.marks = std::move(marks);
-        now.probes[0] = probeBetween({0, 0}, {pixels - 1, 0}, {4096, 1});
-        if (secondLight)
-            now.probes[1] = probeBetween({0, 0}, {pixels - 1, 0}, {4096, 1});
-        ProbeSample sample = rawSample(light);
-        for (std::size_t i = 0; i < panes.size(); ++i) {
-            now.panes[i] = "filter";
-            state[i] += panes[i].alpha * (sample.rawLit - state[i]);
-            sample.lit = panes[i].bias * state[i];
-            if (!runs[i])
-                continue;
-            now.samples[0][i] = sample;
-            if (secondLight)
-                now.samples[1][i] =
-                    ProbeSample{.pixels = 4, .lit = *secondLight, .rawLit = *secondLight};
-        }
-        log.add(now);
-        ++frame;
-    }
-    void run(int frames) {
-        for (int i = 0; i < frames; ++i)
-            step();
-    }
-    void change(double to, const std::string& name = "key off") {
-        light = to;
-        step({{name, true, {}}});
-    }
-    LiveResponse response(std::size_t pane = 0, std::size_t probe = 0) const {
-        return liveResponse(log, probe, pane);
-    }
-};
-
-void checkNoClaim(const LiveResponse& response) {
-    CHECK_FALSE(response.claimed());
-    CHECK(response.p.empty());
-    CHECK_FALSE(response.t50);
-    CHECK_FALSE(response.t90);
-    CHECK(response.ghostFrames == 0.0);
-}
-
-} // namespace
 
 TEST_CASE(
     "a live exponential average of weight 0.2 is half there in 3 frames and nine tenths in 10") {
     // p after n frames is 1 - 0.8^(n + 1): 0.8^4 < 0.5 < 0.8^3 and 0.8^11 < 0.1 < 0.8^10.
     for (const double to : {0.0, 3.0}) {
-        Bench bench(Pane{.alpha = 0.2});
+        LightBench bench(PaneModel{.alpha = 0.2});
         bench.run(20);
         bench.change(to);
         double ghost = 0.0;
@@ -137,7 +47,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what adapts in the event's own frame has no lag at all") {
-    Bench bench(Pane{.alpha = 1.0});
+    LightBench bench(PaneModel{.alpha = 1.0});
     bench.run(20);
     bench.change(0.25);
     for (int n = 0; n < 60; ++n) {
@@ -153,7 +63,7 @@ TEST_CASE("what adapts in the event's own frame has no lag at all") {
 
 TEST_CASE("bias counts as lag while the response is live, and not once it has settled") {
     // It settles at 0.97 of the light. Live, that is 0.03 of ghost in every frame.
-    Bench bench(Pane{.alpha = 0.2, .bias = 0.97});
+    LightBench bench(PaneModel{.alpha = 0.2, .bias = 0.97});
     bench.state[0] = bench.light = 0.0;
     bench.run(20);
     bench.change(2.0);
@@ -184,7 +94,7 @@ TEST_CASE("bias counts as lag while the response is live, and not once it has se
 TEST_CASE("a response that the next event cuts short is settled from 24 frames on") {
     for (const int length : {12, 23, 24, 40}) {
         CAPTURE(length);
-        Bench bench(Pane{.alpha = 0.5});
+        LightBench bench(PaneModel{.alpha = 0.5});
         bench.run(20);
         bench.change(0.0, "key off");
         bench.run(length - 1);
@@ -207,7 +117,7 @@ TEST_CASE("a response that the next event cuts short is settled from 24 frames o
 
 TEST_CASE("an event in the wake of another is measured from the level that it finds") {
     // Off, and on again 3 frames later: before is the mean of the two frames between the events.
-    Bench bench(Pane{.alpha = 0.5});
+    LightBench bench(PaneModel{.alpha = 0.5});
     bench.run(20);
     bench.change(0.0, "key off");
     bench.run(2);
@@ -224,7 +134,7 @@ TEST_CASE("an event in the wake of another is measured from the level that it fi
 }
 
 TEST_CASE("whatever else happens ends the response") {
-    Bench bench(Pane{.alpha = 0.2}, Pane{.alpha = 0.2});
+    LightBench bench(PaneModel{.alpha = 0.2}, PaneModel{.alpha = 0.2});
     bench.run(20);
     bench.change(0.0);
     bench.run(9);
@@ -250,7 +160,7 @@ TEST_CASE("whatever else happens ends the response") {
 }
 
 TEST_CASE("a change of light that comes with something else is no step") {
-    Bench bench(Pane{.alpha = 0.2}, Pane{.alpha = 0.2});
+    LightBench bench(PaneModel{.alpha = 0.2}, PaneModel{.alpha = 0.2});
     bench.run(20);
     bench.light = 0.0;
     bench.step({{"key off", true, {}}, {"pane B: svgf", false, 1}});
@@ -267,7 +177,7 @@ TEST_CASE("a change of light that comes with something else is no step") {
 }
 
 TEST_CASE("a jump of the frame number separates what is before it from what comes after") {
-    Bench bench(Pane{.alpha = 1.0});
+    LightBench bench(PaneModel{.alpha = 1.0});
     bench.run(20);
     bench.change(0.0);
     bench.run(5);
@@ -285,7 +195,7 @@ TEST_CASE("a jump of the frame number separates what is before it from what come
 }
 
 TEST_CASE("a live time is withdrawn when the response falls back") {
-    Bench bench(Pane{.alpha = 1.0});
+    LightBench bench(PaneModel{.alpha = 1.0});
     bench.run(20);
     bench.change(0.0);
     bench.run(2);
@@ -302,7 +212,7 @@ TEST_CASE("a live time is withdrawn when the response falls back") {
 
 TEST_CASE("where the light does not change by 2 % nothing is claimed") {
     for (const double to : {1.0, 1.015, 0.985}) {
-        Bench bench(Pane{.alpha = 1.0});
+        LightBench bench(PaneModel{.alpha = 1.0});
         bench.run(20);
         bench.change(to);
         for (int n = 0; n < 60; ++n) {
@@ -311,108 +221,20 @@ TEST_CASE("where the light does not change by 2 % nothing is claimed") {
             bench.step();
         }
     }
-    Bench bench(Pane{.alpha = 1.0});
+    LightBench bench(PaneModel{.alpha = 1.0});
     bench.run(20);
     bench.change(1.025);
     CHECK(bench.response().status == Status::Live);
-    Bench dark(Pane{.alpha = 1.0});
+    LightBench dark(PaneModel{.alpha = 1.0});
     dark.light = dark.state[0] = 0.0;
     dark.run(20);
     dark.change(0.0);
     CHECK(dark.response().status == Status::TooSmall); // black to black
 }
 
-TEST_CASE("the target's standard error is what the noise of the signal makes it") {
-    // 0 or 2 in each of 100 pixels: a variance of 1 between them, 0.01 between frames.
-    Bench bench(Pane{.alpha = 0.2});
-    bench.noisy = true;
-    bench.run(100);
-    bench.change(4.0);
-    bench.run(24);
-    const LiveResponse r = bench.response();
-    CHECK(r.status == Status::Live);
-    // 25 frames of sd 0.4; the larger of two estimates, each some 10 % uncertain.
-    CHECK(r.targetError > 0.08 * 0.9);
-    CHECK(r.targetError < 0.08 * 1.5);
-    CHECK(std::abs(r.target - 4.0) < 4.0 * 0.08);
-}
-
-TEST_CASE("not one in a thousand looks at noise alone takes it for a step") {
-    // An unrelated light, 400 times each, for a box and a single pixel and filters quick and slow.
-    struct Kind {
-        int pixels;
-        double alpha;
-    };
-    for (const Kind kind : {Kind{100, 0.05}, Kind{100, 0.2}, Kind{100, 1.0}, Kind{1, 0.05},
-                            Kind{1, 0.2}, Kind{1, 1.0}}) {
-        CAPTURE(kind.pixels);
-        CAPTURE(kind.alpha);
-        int claims = 0, looks = 0;
-        for (std::uint64_t seed = 0; seed < 400; ++seed) {
-            Bench bench(Pane{.alpha = kind.alpha});
-            bench.noisy = true;
-            bench.pixels = kind.pixels;
-            bench.seed = seed;
-            bench.run(60);
-            bench.change(1.0, "unrelated on");
-            for (int n = 0; n < 64; ++n) {
-                claims += bench.response().claimed();
-                ++looks;
-                bench.step();
-            }
-        }
-        CHECK(claims <= looks / 1000);
-    }
-}
-
-TEST_CASE("under noise the measured lag is the true one to a frame or two") {
-    int close50 = 0, close90 = 0;
-    double ghost = 0.0;
-    constexpr int kRuns = 200;
-    for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-        Bench bench(Pane{.alpha = 0.2});
-        bench.noisy = true;
-        bench.pixels = 400;
-        bench.seed = seed;
-        bench.run(60);
-        bench.change(0.0);
-        bench.run(64);
-        const LiveResponse r = bench.response();
-        REQUIRE(r.status == Status::Settled);
-        REQUIRE(r.t50);
-        REQUIRE(r.t90);
-        close50 += std::abs(*r.t50 - 3) <= 1;
-        close90 += std::abs(*r.t90 - 10) <= 1;
-        ghost += r.ghostFrames / kRuns;
-    }
-    CHECK(close50 == kRuns);
-    CHECK(close90 == kRuns);
-    CHECK(ghost == Approx(4.0).epsilon(0.02));
-}
-
-TEST_CASE("a single noisy pixel waits until it has frames enough, and then measures") {
-    int claims = 0;
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        Bench bench(Pane{.alpha = 0.2});
-        bench.noisy = true;
-        bench.pixels = 1;
-        bench.seed = seed;
-        bench.run(60);
-        bench.change(6.0);
-        for (int n = 0; n < 5; ++n) {
-            REQUIRE(bench.response().status == Status::Waiting);
-            checkNoClaim(bench.response());
-            bench.step();
-        }
-        bench.run(60);
-        claims += bench.response().claimed();
-    }
-    CHECK(claims >= 90); // a step of 5, with an error of 6 / sqrt(66)
-}
-
 TEST_CASE("a pane on its way from one event does not answer to another that changes nothing") {
     for (const bool noisy : {false, true}) {
-        Bench bench(Pane{.alpha = 0.05});
+        LightBench bench(PaneModel{.alpha = 0.05});
         bench.noisy = noisy;
         bench.pixels = 400;
         bench.run(60);
@@ -430,7 +252,7 @@ TEST_CASE("a pane on its way from one event does not answer to another that chan
 TEST_CASE("a pane that hardly moves has not settled: it is measured against the new light") {
     // After 100 frames it is 4.9 % of the way at most, which is not taken for where it will stay.
     for (const double alpha : {0.0, 0.0005}) {
-        Bench bench(Pane{.alpha = alpha});
+        LightBench bench(PaneModel{.alpha = alpha});
         bench.run(20);
         bench.change(0.0);
         bench.run(100);
@@ -443,7 +265,7 @@ TEST_CASE("a pane that hardly moves has not settled: it is measured against the 
 }
 
 TEST_CASE("probes are measured apart") {
-    Bench bench(Pane{.alpha = 1.0});
+    LightBench bench(PaneModel{.alpha = 1.0});
     bench.secondLight = 0.7;
     bench.run(20);
     bench.change(0.0);
@@ -455,7 +277,7 @@ TEST_CASE("probes are measured apart") {
 }
 
 TEST_CASE("a pane that appears after the event has nothing to say of it, and of the next it has") {
-    Bench bench(Pane{.alpha = 1.0}, Pane{.alpha = 0.5});
+    LightBench bench(PaneModel{.alpha = 1.0}, PaneModel{.alpha = 0.5});
     bench.runs[1] = false;
     bench.run(20);
     bench.change(0.0);
@@ -478,7 +300,7 @@ TEST_CASE("a pane that appears after the event has nothing to say of it, and of 
 }
 
 TEST_CASE("an event that has left the log is forgotten, and so is one without a frame before it") {
-    Bench bench(Pane{.alpha = 0.2});
+    LightBench bench(PaneModel{.alpha = 0.2});
     bench.run(20);
     bench.change(0.0);
     bench.run(598);
@@ -498,7 +320,7 @@ TEST_CASE("an event that has left the log is forgotten, and so is one without a 
 }
 
 TEST_CASE("a picture that is not a number ends the response, and no number of it is one") {
-    Bench bench(Pane{.alpha = 1.0});
+    LightBench bench(PaneModel{.alpha = 1.0});
     bench.run(20);
     bench.change(0.0);
     bench.run(5);
@@ -521,7 +343,7 @@ TEST_CASE("a picture that is not a number ends the response, and no number of it
 }
 
 TEST_CASE("a response is told in a line") {
-    Bench bench(Pane{.alpha = 0.4});
+    LightBench bench(PaneModel{.alpha = 0.4});
     CHECK(describe(bench.response()) == "no change of light yet");
     bench.run(20);
     CHECK(describe(bench.response()) == "no change of light yet");

@@ -44,7 +44,7 @@ std::string text(const Camera& camera) {
 
 // Where a person would say that it is.
 std::string placeOf(const ViewState& state) {
-    if (sameView(state.camera, state.home))
+    if (state.camera == state.home)
         return "home";
     const auto places = state.preferences.bookmarks.find(state.sceneName);
     if (places != state.preferences.bookmarks.end())
@@ -148,7 +148,6 @@ void addWindow(Facts& facts, const ViewState& state) {
         places += list.size();
     facts["bookmarks"] = text(places);
     facts["help"] = text(state.showHelp);
-    facts["timings"] = text(state.showTimings);
     facts["inspector"] = text(state.showInspector);
     facts["curves"] = text(state.showCurves);
     facts["passes"] = text(state.showPasses);
@@ -171,6 +170,7 @@ void addRequests(Facts& facts, const Requests& wanted) {
     facts["wants copied preset"] = text(wanted.copyPreset);
     facts["wants pasted preset"] = text(wanted.pastePreset);
     facts["wants saved preset"] = wanted.savePreset;
+    facts["wants removed preset"] = wanted.removePreset;
     facts["wants saved take"] = text(wanted.saveTake);
     facts["wants shaders"] = text(wanted.reloadShaders);
     facts["wants probe"] = text(wanted.probeAtMouse);

@@ -113,7 +113,7 @@ TEST_CASE("a take of an experiment has the lights, times, steps and names of its
         CHECK(frame.lights[0].on == (i < 10 || i >= 20));
         CHECK(frame.lights[1].power == (i < 20 ? 0.5f : 2.0f));
         CHECK(frame.step == (i == 10 || i == 20));
-        CHECK(sameView(frame.camera, take.frames[0].camera) == (i < 30));
+        CHECK((frame.camera == take.frames[0].camera) == (i < 30));
         CHECK(frame.marks.empty() == (i != 10 && i != 20 && i != 30));
     }
     CHECK(take.frames[10].marks == std::vector<std::string>{"key off"});

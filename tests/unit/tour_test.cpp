@@ -189,7 +189,7 @@ TEST_CASE("entering a stop undoes what a person or the stop before has changed, 
 
             enterStop(state, stop, {320, 180});
             CHECK(state.lights == fresh.lights);
-            CHECK(sameView(state.camera, fresh.camera));
+            CHECK(state.camera == fresh.camera);
             CHECK(state.onPath == fresh.onPath);
             CHECK(state.shown == fresh.shown);
             if (state.shown.kind == Shown::Kind::Aov)

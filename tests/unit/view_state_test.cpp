@@ -146,9 +146,9 @@ TEST_CASE("home is the scene's camera, wherever one flew") {
     ViewState state = cornellState();
     const Camera home = state.camera;
     fly(state.camera, {.move = {1, 1, 1}, .look = {1, 1}}, 3.0f, 1.0);
-    REQUIRE_FALSE(sameView(state.camera, home));
+    REQUIRE_FALSE(state.camera == home);
     press(state, {Key::Home});
-    CHECK(sameView(state.camera, home));
+    CHECK(state.camera == home);
 }
 
 TEST_CASE("an unknown camera is named together with the known ones") {
@@ -176,9 +176,8 @@ TEST_CASE("camera cuts go from place to place and around, and always to another 
         for (int i = 0; i < 12; ++i) {
             const Camera before = state.camera;
             press(state, 'C');
-            CHECK_FALSE(sameView(state.camera, before));
-            if (std::ranges::none_of(seen,
-                                     [&](const Camera& c) { return sameView(c, state.camera); }))
+            CHECK_FALSE(state.camera == before);
+            if (std::ranges::none_of(seen, [&](const Camera& c) { return c == state.camera; }))
                 seen.push_back(state.camera);
         }
         CHECK(seen.size() == (places == 0 ? 4 : std::max<std::size_t>(places, 2)));
@@ -214,14 +213,14 @@ TEST_CASE("nine places are remembered by scene, each with a name of its own, and
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         state.onPath = true;
         press(state, {.key = keyOf(char('1' + i)), .control = true, .shift = true});
-        CHECK(sameView(state.camera, cameras[i]));
+        CHECK(state.camera == cameras[i]);
         CHECK_FALSE(state.onPath);
     }
     state.sceneName = "elsewhere";
     CHECK(bookmarks(state).empty());
     const Camera before = state.camera;
     goToBookmark(state, 0);
-    CHECK(sameView(state.camera, before));
+    CHECK(state.camera == before);
 }
 
 TEST_CASE("in another scene lights, cameras, time and probes start over; panes and panels stay") {
@@ -241,7 +240,7 @@ TEST_CASE("in another scene lights, cameras, time and probes start over; panes a
     CHECK(state.lightColors.size() == 2);
     CHECK(state.time.frame == 0);
     CHECK(state.time.past.empty());
-    CHECK(sameView(state.camera, state.home));
+    CHECK(state.camera == state.home);
     CHECK_FALSE(state.onPath);
     CHECK(state.probes == ViewState{}.probes);
     CHECK_FALSE(state.hovered);
