@@ -7,16 +7,6 @@
 
 namespace afterglow {
 
-namespace {
-
-constexpr std::size_t kTexelBytes = 16; // RGBA32UI
-
-std::size_t wholeTexels(std::size_t bytes) {
-    return std::max<std::size_t>(1, (bytes + kTexelBytes - 1) / kTexelBytes);
-}
-
-} // namespace
-
 GpuBuffer::GpuBuffer(std::string_view label, std::size_t bytes) : label_(label), bytes_(bytes) {
     if (bytes == 0)
         return; // OpenGL has no empty buffers
@@ -39,16 +29,31 @@ void GpuBuffer::readBytes(std::span<std::byte> bytes) const {
         glGetNamedBufferSubData(id(), 0, GLsizeiptr(bytes.size()), bytes.data());
 }
 
-TexelBuffer::TexelBuffer(std::string_view label, std::size_t bytes) {
-    const std::size_t texels = wholeTexels(bytes);
+TexelBuffer::TexelBuffer(std::string_view label, std::size_t bytes, PixelFormat format)
+    : format_(format) {
+    const FormatInfo texel = info(format);
+    if (!texel.isImage || (texel.type != GL_FLOAT && texel.type != GL_UNSIGNED_INT) ||
+        format == PixelFormat::RGBA16F)
+        throw std::logic_error("buffer " + std::string(label) + " cannot have texels of format " +
+                               std::string(texel.name));
+    const auto size = std::size_t(texel.bytes);
+    const std::size_t texels = std::max<std::size_t>(1, (bytes + size - 1) / size);
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (texels > std::size_t(most))
         throw Error("buffer " + std::string(label) + " needs " + std::to_string(texels) +
                     " texels; this driver addresses " + std::to_string(most));
-    buffer_ = GpuBuffer(label, texels * kTexelBytes);
+    buffer_ = GpuBuffer(label, texels * size);
     texture_ = GlObject<TextureKind>::create(label, GLenum(GL_TEXTURE_BUFFER));
-    glTextureBuffer(texture_.id(), GL_RGBA32UI, buffer_.id());
+    glTextureBuffer(texture_.id(), texel.internal, buffer_.id());
+}
+
+void TexelBuffer::checkValues(std::size_t bytesOfOne, std::size_t count) const {
+    const auto texel = std::size_t(info(format_).bytes);
+    if ((bytesOfOne % texel != 0 && texel % bytesOfOne != 0) || bytesOfOne * count % texel != 0)
+        throw std::logic_error("buffer " + label() + " has texels of " + std::to_string(texel) +
+                               " bytes, but was given " + std::to_string(count) + " values of " +
+                               std::to_string(bytesOfOne));
 }
 
 } // namespace afterglow

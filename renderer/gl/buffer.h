@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/gl/object.h"
+#include "renderer/gl/pixel_format.h"
 
 #include <cstddef>
 #include <ranges>
@@ -52,26 +53,31 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// A buffer that shaders see as an array of RGBA32UI texels of 16 bytes: a usamplerBuffer or a
-/// uimageBuffer (measured faster than a storage buffer on llvmpipe, and equal elsewhere).
+/// A buffer that shaders see as an array of texels: a samplerBuffer or an imageBuffer, with a u in
+/// front where the format is of integers (measured faster than a storage buffer on llvmpipe, and
+/// equal elsewhere).
 class TexelBuffer {
 public:
     TexelBuffer() = default;
-    /// Room for `bytes`, rounded up to whole texels, at least one. Zero at first.
-    TexelBuffer(std::string_view label, std::size_t bytes);
+    /// Room for `bytes`, rounded up to whole texels, at least one. Zero at first. The format has 32
+    /// bits a channel and no depth; any other is std::logic_error.
+    TexelBuffer(std::string_view label, std::size_t bytes,
+                PixelFormat format = PixelFormat::RGBA32UI);
 
     GLuint texture() const { return texture_.id(); }
     GLuint buffer() const { return buffer_.id(); }
+    PixelFormat format() const { return format_; }
     std::size_t bytes() const { return buffer_.bytes(); }
     const std::string& label() const { return buffer_.label(); }
 
     /// Replaces the values from the first on. Grows when they do not fit, and then loses the rest
-    /// of what it held. Throws Error when there are more than the driver can address.
+    /// of what it held. Throws Error when there are more than the driver can address, and
+    /// std::logic_error unless a value is whole texels, or a texel whole values.
     template <class T>
     void write(std::span<const T> values) {
-        static_assert(sizeof(T) % 16 == 0, "a texel is 16 bytes; pad");
+        checkValues(sizeof(T), values.size());
         if (values.size_bytes() > bytes())
-            *this = TexelBuffer(std::string(label()), values.size_bytes());
+            *this = TexelBuffer(std::string(label()), values.size_bytes(), format_);
         buffer_.write(values);
     }
     template <std::ranges::contiguous_range Values>
@@ -85,7 +91,10 @@ public:
     }
 
 private:
+    void checkValues(std::size_t bytesOfOne, std::size_t count) const;
+
     GpuBuffer buffer_;
+    PixelFormat format_ = PixelFormat::RGBA32UI;
     GlObject<TextureKind> texture_;
 };
 

@@ -26,28 +26,36 @@ std::string_view kindName(GLenum type) {
     switch (type) {
     case GL_SAMPLER_2D: return "sampler2D";
     case GL_UNSIGNED_INT_SAMPLER_2D: return "usampler2D";
+    case GL_SAMPLER_BUFFER: return "samplerBuffer";
     case GL_UNSIGNED_INT_SAMPLER_BUFFER: return "usamplerBuffer";
     case GL_IMAGE_2D: return "image2D";
     case GL_UNSIGNED_INT_IMAGE_2D: return "uimage2D";
+    case GL_IMAGE_BUFFER: return "imageBuffer";
     case GL_UNSIGNED_INT_IMAGE_BUFFER: return "uimageBuffer";
     default: return {};
     }
 }
 
+PixelFormat formatOf(const Binding& binding) {
+    return binding.buffer ? binding.buffer->format() : binding.texture->format();
+}
+
 /// Whether a uniform of this type can be given this texture or buffer.
 bool fits(GLenum type, const Binding& binding) {
+    const FormatInfo format = info(formatOf(binding));
+    if (isImage(type) && !format.isImage)
+        return false;
     if (binding.buffer)
-        return type == GL_UNSIGNED_INT_SAMPLER_BUFFER || type == GL_UNSIGNED_INT_IMAGE_BUFFER;
-    const bool isDepth = binding.texture->format() == PixelFormat::Depth32F;
-    if (info(binding.texture->format()).isInteger)
-        return type == GL_UNSIGNED_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_IMAGE_2D;
-    return type == GL_SAMPLER_2D || (type == GL_IMAGE_2D && !isDepth);
+        return format.isInteger
+                   ? type == GL_UNSIGNED_INT_SAMPLER_BUFFER || type == GL_UNSIGNED_INT_IMAGE_BUFFER
+                   : type == GL_SAMPLER_BUFFER || type == GL_IMAGE_BUFFER;
+    return format.isInteger ? type == GL_UNSIGNED_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_IMAGE_2D
+                            : type == GL_SAMPLER_2D || type == GL_IMAGE_2D;
 }
 
 std::string describe(const Binding& binding) {
-    return binding.buffer
-               ? "a buffer of texels"
-               : "a texture of format " + std::string(info(binding.texture->format()).name);
+    return (binding.buffer ? "a buffer of texels of format " : "a texture of format ") +
+           std::string(info(formatOf(binding)).name);
 }
 
 std::string infoLog(GLuint id, auto getParameter, auto getLog) {
@@ -162,10 +170,8 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
         glBindTextureUnit(GLuint(slot.unit), texture);
         return;
     }
-    const GLenum format =
-        binding.buffer ? GLenum(GL_RGBA32UI) : info(binding.texture->format()).internal;
     glBindImageTexture(GLuint(slot.unit), texture, 0, GL_FALSE, 0,
-                       written ? GL_READ_WRITE : GL_READ_ONLY, format);
+                       written ? GL_READ_WRITE : GL_READ_ONLY, info(formatOf(binding)).internal);
 }
 
 void LinkedProgram::bind(std::span<const Binding> reads, std::span<const Binding> writes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/gl/object.h"
+#include "renderer/gl/pixel_format.h"
 #include "renderer/image/image.h"
 
 #include <cstddef>
@@ -8,16 +9,6 @@
 #include <string_view>
 
 namespace afterglow {
-
-enum class PixelFormat { R32F, RG32F, RGBA32F, RGBA16F, R32UI, RG32UI, RGBA32UI, RGBA8, Depth32F };
-
-struct FormatInfo {
-    GLenum internal, layout, type; ///< as OpenGL spells it; layout and type: how pixels are given
-    int bytes;                     ///< of one pixel on the device
-    std::string_view name;         ///< as in PixelFormat
-    bool isInteger;
-};
-FormatInfo info(PixelFormat format);
 
 /// A 2D texture with immutable storage and one mip level, fetched without filtering.
 /// What it holds at first is undefined.

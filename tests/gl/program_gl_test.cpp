@@ -219,6 +219,60 @@ void main() {
     CHECK(texels.read<glm::uvec4>() == std::vector<glm::uvec4>(61, {4, 5, 6, 7}));
 }
 
+TEST_CASE("a buffer of floats is read through samplers and images, and written in place") {
+    testContext();
+    const GlCheck check;
+    ComputeProgram program = compile("add.comp", R"(
+uniform samplerBuffer ones;
+layout(rgba32f) readonly uniform imageBuffer fours;
+layout(r32f) uniform imageBuffer sums;
+void main() {
+    int i = int(gl_GlobalInvocationID.y) * 8 + int(gl_GlobalInvocationID.x);
+    if (i >= imageSize(sums))
+        return;
+    float sum = imageLoad(sums, i).x + texelFetch(ones, i).x + imageLoad(fours, i / 4)[i % 4];
+    imageStore(sums, i, vec4(sum));
+}
+)");
+    TexelBuffer ones("ones", 0, PixelFormat::R32F), fours("fours", 0, PixelFormat::RGBA32F),
+        sums("sums", 0, PixelFormat::R32F);
+    std::vector<float> first(44), second(44), third(44), expected(44);
+    for (int i = 0; i < 44; ++i) {
+        first[i] = 0.25f * float(i) - 3.0f;
+        second[i] = float(100 * i);
+        third[i] = -0.5f * float(i);
+        expected[i] = first[i] + second[i] + third[i];
+    }
+    ones.write(first);
+    fours.write(second);
+    sums.write(third);
+    program.dispatch(glm::ivec2(8, 6), {{"ones", ones}, {"fours", fours}}, {{"sums", sums}});
+    CHECK(sums.read<float>() == expected); // multiples of 1/4: exact
+    CHECK(ones.read<float>() == first);
+
+    TexelBuffer bits("bits", 44 * 4, PixelFormat::R32UI);
+    GpuTexture picture("picture", PixelFormat::R32F, kOdd);
+    const auto give = [&](const Binding& read, const Binding& written) {
+        return logicErrorOf([&] {
+            program.dispatch(glm::ivec2(8, 6), {read, {"fours", fours}}, {written});
+        });
+    };
+    CHECK(give({"ones", bits}, {"sums", sums}) == "add.comp declares ones as samplerBuffer, but "
+                                                  "was given a buffer of texels of format R32UI");
+    CHECK(give({"ones", ones}, {"sums", bits}) ==
+          "add.comp declares sums as imageBuffer, but was given a buffer of texels of format "
+          "R32UI");
+    CHECK(give({"ones", picture}, {"sums", sums}) ==
+          "add.comp declares ones as samplerBuffer, but was given a texture of format R32F");
+    GpuTexture out("out", PixelFormat::RGBA32F, kOdd), guides("guides", PixelFormat::RG32F, kOdd);
+    CHECK(logicErrorOf([&] {
+              compile("scale.comp", kScale)
+                  .dispatch(kOdd, ScaleParams{}, {{"radiance", fours}, {"guides", guides}},
+                            {{"scaled", out}});
+          }) == "scale.comp declares radiance as sampler2D, but was given a buffer of texels of "
+                "format RGBA32F");
+}
+
 TEST_CASE("dispatch refuses names that are misspelt, missing or given twice") {
     testContext();
     const GlCheck check;
@@ -269,7 +323,8 @@ TEST_CASE("dispatch refuses a texture of another kind than the shader declares")
     CHECK(give({}, {"radiance", uints}, {"scaled", floats}) ==
           "scale.comp declares radiance as sampler2D, but was given a texture of format RG32UI");
     CHECK(give({}, {"radiance", texels}, {"scaled", floats}) ==
-          "scale.comp declares radiance as sampler2D, but was given a buffer of texels");
+          "scale.comp declares radiance as sampler2D, but was given a buffer of texels of "
+          "format RGBA32UI");
     CHECK(give({}, {"radiance", floats}, {"scaled", uints}) ==
           "scale.comp declares scaled as image2D, but was given a texture of format RG32UI");
     CHECK(give(kFetchPaths[1], {"radiance", depth}, {"scaled", floats}) ==

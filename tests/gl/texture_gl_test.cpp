@@ -77,6 +77,7 @@ TEST_CASE("what is written to a texture of any format is read back, bit by bit")
     checkRoundTrip(PixelFormat::RG32UI, randomBits<glm::uvec2>(kOdd));
     checkRoundTrip(PixelFormat::RGBA32UI, randomBits<glm::uvec4>(kOdd));
     checkRoundTrip(PixelFormat::RGBA8, randomBits<glm::u8vec4>(kOdd));
+    checkRoundTrip(PixelFormat::SRGBA8, randomBits<glm::u8vec4>(kOdd));
     checkRoundTrip(PixelFormat::Depth32F, exactHalves<float>(kOdd));
 }
 
@@ -149,6 +150,42 @@ TEST_CASE("a buffer of texels grows with what is written") {
     glGetTextureLevelParameteriv(buffer.texture(), 0, GL_TEXTURE_WIDTH, &texels);
     CHECK(texels == 100);
     CHECK(TexelBuffer("empty", 0).bytes() == 16);
+}
+
+TEST_CASE("a buffer of texels has its format, and takes only values that are whole texels") {
+    testContext();
+    const GlCheck check;
+    for (const auto& [format, internal] : {std::pair{PixelFormat::RGBA32UI, GL_RGBA32UI},
+                                           {PixelFormat::RGBA32F, GL_RGBA32F},
+                                           {PixelFormat::RG32F, GL_RG32F},
+                                           {PixelFormat::R32F, GL_R32F},
+                                           {PixelFormat::R32UI, GL_R32UI}}) {
+        CAPTURE(info(format).name);
+        TexelBuffer buffer("weights", 0, format);
+        CHECK(buffer.format() == format);
+        CHECK(buffer.bytes() == std::size_t(info(format).bytes));
+        const std::vector<float> numbers{1, 2, 3, 4, 5, 6, 7, 8};
+        buffer.write(numbers); // grows, and keeps its format
+        CHECK(buffer.read<float>() == numbers);
+        CHECK(buffer.format() == format);
+        GLint found = 0, texels = 0;
+        glGetTextureLevelParameteriv(buffer.texture(), 0, GL_TEXTURE_INTERNAL_FORMAT, &found);
+        glGetTextureLevelParameteriv(buffer.texture(), 0, GL_TEXTURE_WIDTH, &texels);
+        CHECK(found == GLint(internal));
+        CHECK(texels == 32 / info(format).bytes);
+    }
+    TexelBuffer fours("fours", 64, PixelFormat::RGBA32F), ones("ones", 64, PixelFormat::R32F);
+    CHECK(logicErrorOf([&] { fours.write(std::vector<float>(5)); }) ==
+          "buffer fours has texels of 16 bytes, but was given 5 values of 4");
+    CHECK(logicErrorOf([&] { // whole texels, but records of which none is
+              fours.write(std::vector<std::array<float, 6>>(2));
+          }) == "buffer fours has texels of 16 bytes, but was given 2 values of 24");
+    CHECK_NOTHROW(ones.write(std::vector<float>(5)));
+    CHECK_NOTHROW(ones.write(std::vector<std::array<float, 6>>(1)));
+    for (const PixelFormat format :
+         {PixelFormat::Depth32F, PixelFormat::SRGBA8, PixelFormat::RGBA8, PixelFormat::RGBA16F})
+        CHECK(logicErrorOf([&] { TexelBuffer("none", 16, format); }) ==
+              "buffer none cannot have texels of format " + std::string(info(format).name));
 }
 
 TEST_CASE("more texels than the driver addresses are an error that says how many") {
