@@ -221,15 +221,15 @@ ComputeProgram::ComputeProgram(std::string_view name, const ExpandedShader& sour
     glGetProgramiv(id(), GL_COMPUTE_WORK_GROUP_SIZE, &groupSize_.x);
 }
 
-void ComputeProgram::dispatchBytes(glm::ivec2 size, std::span<const std::byte> params,
+void ComputeProgram::dispatchBytes(glm::ivec3 size, std::span<const std::byte> params,
                                    std::span<const Binding> reads,
                                    std::span<const Binding> writes) {
     program_.bind(reads, writes);
     program_.setParams(params);
 
     glUseProgram(id());
-    const glm::ivec2 groups = (size + glm::ivec2(groupSize_) - 1) / glm::ivec2(groupSize_);
-    glDispatchCompute(GLuint(groups.x), GLuint(groups.y), 1);
+    const glm::ivec3 groups = (size + groupSize_ - 1) / groupSize_;
+    glDispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
 
     // Passes read what the passes before them wrote. A barrier here, after every dispatch, means no
     // pass has to think about it.

@@ -81,15 +81,25 @@ public:
     /// Runs it over `size` threads or a little more, in whole workgroups, and lets later commands
     /// see what it wrote. Throws std::logic_error as LinkedProgram does.
     template <class Params>
-    void dispatch(glm::ivec2 size, const Params& params, std::initializer_list<Binding> reads,
+    void dispatch(glm::ivec3 size, const Params& params, std::initializer_list<Binding> reads,
                   std::initializer_list<Binding> writes) {
         static_assert(std::is_trivially_copyable_v<Params>);
         static_assert(sizeof(Params) % 16 == 0, "GLSL rounds block sizes up to 16 bytes; pad");
         dispatchBytes(size, std::as_bytes(std::span(&params, 1)), reads, writes);
     }
-    void dispatch(glm::ivec2 size, std::initializer_list<Binding> reads,
+    void dispatch(glm::ivec3 size, std::initializer_list<Binding> reads,
                   std::initializer_list<Binding> writes) {
         dispatchBytes(size, {}, reads, writes);
+    }
+    // One layer of threads.
+    template <class Params>
+    void dispatch(glm::ivec2 size, const Params& params, std::initializer_list<Binding> reads,
+                  std::initializer_list<Binding> writes) {
+        dispatch(glm::ivec3(size, 1), params, reads, writes);
+    }
+    void dispatch(glm::ivec2 size, std::initializer_list<Binding> reads,
+                  std::initializer_list<Binding> writes) {
+        dispatch(glm::ivec3(size, 1), reads, writes);
     }
 
     glm::ivec3 groupSize() const { return groupSize_; } ///< threads in a workgroup
@@ -97,7 +107,7 @@ public:
     GLuint id() const { return program_.id(); }
 
 private:
-    void dispatchBytes(glm::ivec2 size, std::span<const std::byte> params,
+    void dispatchBytes(glm::ivec3 size, std::span<const std::byte> params,
                        std::span<const Binding> reads, std::span<const Binding> writes);
 
     LinkedProgram program_;

@@ -273,6 +273,37 @@ void main() {
                 "format RGBA32F");
 }
 
+TEST_CASE("a dispatch of three dimensions runs every thread once, at sizes that no group divides") {
+    testContext();
+    const GlCheck check;
+    const std::string text = R"(#version 450 core
+layout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;
+layout(std140, binding = 1) uniform Params { ivec4 size; };
+layout(r32ui) uniform uimageBuffer visits;
+void main() {
+    ivec3 p = ivec3(gl_GlobalInvocationID);
+    if (all(lessThan(p, size.xyz)))
+        imageAtomicAdd(visits, (p.z * size.y + p.y) * size.x + p.x, uint(1 + p.z));
+}
+)";
+    ComputeProgram program("visits.comp", testShaders().source().expandText("visits.comp", text));
+    CHECK(program.groupSize() == glm::ivec3(8, 4, 2));
+    const auto visitsOf = [&](auto threads, glm::ivec3 size) {
+        const std::size_t count = std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z);
+        TexelBuffer visits("visits", count * 4, PixelFormat::R32UI);
+        program.dispatch(threads, glm::ivec4(size, 0), {}, {{"visits", visits}});
+        return visits.read<std::uint32_t>();
+    };
+    const glm::ivec3 size{13, 7, 5};
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t z = 0; z < 5; ++z)
+        expected.insert(expected.end(), 13 * 7, 1 + z);
+    CHECK(visitsOf(size, size) == expected);
+    // Two dimensions are one layer of groups, which is two threads deep here.
+    std::fill(expected.begin() + 2 * 13 * 7, expected.end(), 0u);
+    CHECK(visitsOf(glm::ivec2(size), size) == expected);
+}
+
 TEST_CASE("dispatch refuses names that are misspelt, missing or given twice") {
     testContext();
     const GlCheck check;
