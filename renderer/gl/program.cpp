@@ -26,10 +26,14 @@ std::string_view kindName(GLenum type) {
     switch (type) {
     case GL_SAMPLER_2D: return "sampler2D";
     case GL_UNSIGNED_INT_SAMPLER_2D: return "usampler2D";
+    case GL_SAMPLER_2D_ARRAY: return "sampler2DArray";
+    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY: return "usampler2DArray";
     case GL_SAMPLER_BUFFER: return "samplerBuffer";
     case GL_UNSIGNED_INT_SAMPLER_BUFFER: return "usamplerBuffer";
     case GL_IMAGE_2D: return "image2D";
     case GL_UNSIGNED_INT_IMAGE_2D: return "uimage2D";
+    case GL_IMAGE_2D_ARRAY: return "image2DArray";
+    case GL_UNSIGNED_INT_IMAGE_2D_ARRAY: return "uimage2DArray";
     case GL_IMAGE_BUFFER: return "imageBuffer";
     case GL_UNSIGNED_INT_IMAGE_BUFFER: return "uimageBuffer";
     default: return {};
@@ -37,24 +41,40 @@ std::string_view kindName(GLenum type) {
 }
 
 PixelFormat formatOf(const Binding& binding) {
-    return binding.buffer ? binding.buffer->format() : binding.texture->format();
+    return binding.buffer  ? binding.buffer->format()
+           : binding.array ? binding.array->format()
+                           : binding.texture->format();
 }
 
-/// Whether a uniform of this type can be given this texture or buffer.
+GLuint idOf(const Binding& binding) {
+    return binding.buffer  ? binding.buffer->texture()
+           : binding.array ? binding.array->id()
+                           : binding.texture->id();
+}
+
+/// Whether a uniform of this type can be given this texture, array or buffer.
 bool fits(GLenum type, const Binding& binding) {
     const FormatInfo format = info(formatOf(binding));
     if (isImage(type) && !format.isImage)
         return false;
+    const auto isOneOf = [&](GLenum sampler, GLenum image, GLenum uintSampler, GLenum uintImage) {
+        return format.isInteger ? type == uintSampler || type == uintImage
+                                : type == sampler || type == image;
+    };
     if (binding.buffer)
-        return format.isInteger
-                   ? type == GL_UNSIGNED_INT_SAMPLER_BUFFER || type == GL_UNSIGNED_INT_IMAGE_BUFFER
-                   : type == GL_SAMPLER_BUFFER || type == GL_IMAGE_BUFFER;
-    return format.isInteger ? type == GL_UNSIGNED_INT_SAMPLER_2D || type == GL_UNSIGNED_INT_IMAGE_2D
-                            : type == GL_SAMPLER_2D || type == GL_IMAGE_2D;
+        return isOneOf(GL_SAMPLER_BUFFER, GL_IMAGE_BUFFER, GL_UNSIGNED_INT_SAMPLER_BUFFER,
+                       GL_UNSIGNED_INT_IMAGE_BUFFER);
+    if (binding.array)
+        return isOneOf(GL_SAMPLER_2D_ARRAY, GL_IMAGE_2D_ARRAY, GL_UNSIGNED_INT_SAMPLER_2D_ARRAY,
+                       GL_UNSIGNED_INT_IMAGE_2D_ARRAY);
+    return isOneOf(GL_SAMPLER_2D, GL_IMAGE_2D, GL_UNSIGNED_INT_SAMPLER_2D,
+                   GL_UNSIGNED_INT_IMAGE_2D);
 }
 
 std::string describe(const Binding& binding) {
-    return (binding.buffer ? "a buffer of texels of format " : "a texture of format ") +
+    return (binding.buffer  ? "a buffer of texels of format "
+            : binding.array ? "an array of textures of format "
+                            : "a texture of format ") +
            std::string(info(formatOf(binding)).name);
 }
 
@@ -162,7 +182,7 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
                                describe(binding));
     if (written && !isImage(slot.type))
         throw std::logic_error(name_ + " samples " + slot.name + "; it cannot be written");
-    const GLuint texture = binding.buffer ? binding.buffer->texture() : binding.texture->id();
+    const GLuint texture = idOf(binding);
     if (texture == 0)
         throw std::logic_error(name_ + " was given nothing as " + slot.name +
                                ": the texture was never made");
@@ -170,7 +190,7 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
         glBindTextureUnit(GLuint(slot.unit), texture);
         return;
     }
-    glBindImageTexture(GLuint(slot.unit), texture, 0, GL_FALSE, 0,
+    glBindImageTexture(GLuint(slot.unit), texture, 0, binding.array ? GL_TRUE : GL_FALSE, 0,
                        written ? GL_READ_WRITE : GL_READ_ONLY, info(formatOf(binding)).internal);
 }
 

@@ -3,6 +3,7 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/shader_source.h"
 #include "renderer/gl/texture.h"
+#include "renderer/gl/texture_array.h"
 
 #include <cstddef>
 #include <initializer_list>
@@ -13,16 +14,19 @@
 
 namespace afterglow {
 
-/// A texture, or a buffer seen as texels, under the name that the shader knows it by. For the
-/// duration of a call.
+/// A texture, an array of them, or a buffer seen as texels, under the name that the shader knows it
+/// by. For the duration of a call.
 struct Binding {
     Binding(std::string_view shaderName, const GpuTexture& source)
         : name(shaderName), texture(&source) {}
+    Binding(std::string_view shaderName, const GpuTextureArray& source)
+        : name(shaderName), array(&source) {}
     Binding(std::string_view shaderName, const TexelBuffer& source)
         : name(shaderName), buffer(&source) {}
 
     std::string_view name;
-    const GpuTexture* texture = nullptr; ///< one of the two
+    const GpuTexture* texture = nullptr; ///< one of the three
+    const GpuTextureArray* array = nullptr;
     const TexelBuffer* buffer = nullptr;
 };
 
