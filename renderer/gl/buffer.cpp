@@ -12,7 +12,12 @@ GpuBuffer::GpuBuffer(std::string_view label, std::size_t bytes) : label_(label),
         return; // OpenGL has no empty buffers
     object_ = GlObject<BufferKind>::create(label);
     glNamedBufferStorage(id(), GLsizeiptr(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
-    glClearNamedBufferData(id(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+    clear();
+}
+
+void GpuBuffer::clear() {
+    if (!empty())
+        glClearNamedBufferData(id(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
 }
 
 void GpuBuffer::writeBytes(std::span<const std::byte> bytes, std::size_t offset) {

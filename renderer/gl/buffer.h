@@ -44,6 +44,8 @@ public:
         return values;
     }
 
+    void clear(); ///< to zero
+
 private:
     void writeBytes(std::span<const std::byte> bytes, std::size_t offset);
     void readBytes(std::span<std::byte> bytes) const;
@@ -89,6 +91,8 @@ public:
     std::vector<T> read() const {
         return buffer_.read<T>();
     }
+
+    void clear() { buffer_.clear(); } ///< to zero
 
 private:
     void checkValues(std::size_t bytesOfOne, std::size_t count) const;

@@ -7,16 +7,19 @@
 
 namespace afterglow {
 
-/// Two textures that change places at the end of each frame.
-class History {
+/// Two textures, arrays of textures or buffers of texels that change places at the end of each
+/// frame. They are made of the same arguments, and know no size but their own.
+template <class Resource>
+class HistoryOf {
 public:
-    History() = default;
-    History(const std::string& label, PixelFormat format, glm::ivec2 size)
-        : current_(label, format, size), previous_(label + " (previous)", format, size) {}
+    HistoryOf() = default;
+    template <class... Args>
+    explicit HistoryOf(const std::string& label, const Args&... args)
+        : current_(label, args...), previous_(label + " (previous)", args...) {}
 
-    const GpuTexture& previous() const { return previous_; }
-    const GpuTexture& current() const { return current_; }
-    GpuTexture& current() { return current_; }
+    const Resource& previous() const { return previous_; }
+    const Resource& current() const { return current_; }
+    Resource& current() { return current_; }
     void swap() { std::swap(current_, previous_); }
     void clear() {
         current_.clear();
@@ -24,7 +27,9 @@ public:
     }
 
 private:
-    GpuTexture current_, previous_;
+    Resource current_, previous_;
 };
+
+using History = HistoryOf<GpuTexture>;
 
 } // namespace afterglow
