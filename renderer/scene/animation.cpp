@@ -15,8 +15,12 @@ glm::quat quatFrom(glm::vec4 xyzw) {
     return glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z);
 }
 
+// Files store the times of keys as 32-bit floats, and one that stands for a frame may lie a little
+// above frame / rate. So keys are met in float; what lies between two is weighed in double.
 glm::vec4 valueAt(const Track& track, double seconds) {
-    const auto next = std::upper_bound(track.times.begin(), track.times.end(), seconds);
+    const float moment = float(seconds);
+    const auto next = std::upper_bound(track.times.begin(), track.times.end(), moment,
+                                       [](float value, double key) { return value < float(key); });
     if (next == track.times.begin()) {
         return track.values.front();
     }
@@ -24,7 +28,7 @@ glm::vec4 valueAt(const Track& track, double seconds) {
     // At a key, and between two that are equal, the value is the key's to the last bit, which a
     // weighted sum is not: what stands still must not be taken for something that moves.
     if (next == track.times.end() || track.interpolation == Track::Interpolation::Step ||
-        seconds == track.times[i] || track.values[i] == track.values[i + 1]) {
+        moment == float(track.times[i]) || track.values[i] == track.values[i + 1]) {
         return track.values[i];
     }
     const double span = track.times[i + 1] - track.times[i];

@@ -1,7 +1,12 @@
+#include "renderer/scene/gltf_import.h"
 #include "renderer/scene/scene.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/temporary_folder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -44,7 +49,57 @@ glm::vec3 placeOf(const Scene& scene, double seconds, std::size_t node) {
     return glm::vec3(poseAt(scene, seconds).worldFromNode.at(node)[3]);
 }
 
+/// A file whose node moves up by a metre at every key; the first key is at 0.
+Scene stairs(const std::vector<float>& times, const char* interpolation) {
+    GltfBuilder builder;
+    const int positions = builder.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+    builder.shape({{"attributes", {{"POSITION", positions}}}});
+    std::vector<float> places;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        places.insert(places.end(), {0.0f, float(i), 0.0f});
+    const int input = builder.floats(times, "SCALAR"), output = builder.floats(places, "VEC3");
+    builder.document["animations"].push_back(
+        {{"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+    const TemporaryFolder folder;
+    std::ofstream(folder / "stairs.gltf") << builder.gltf();
+    return importGltf(folder / "stairs.gltf");
+}
+
 } // namespace
+
+TEST_CASE("a key on a frame acts in that frame and not before, at every rate") {
+    for (const int rate : {24, 25, 30, 50, 60, 90, 120}) {
+        CAPTURE(rate);
+        std::vector<float> times;
+        for (int frame = 0; frame <= 10 * rate; ++frame)
+            times.push_back(float(frame / double(rate)));
+        const Scene step = stairs(times, "STEP"), linear = stairs(times, "LINEAR");
+        for (int frame = 0; frame <= 10 * rate; ++frame) {
+            CAPTURE(frame);
+            const double seconds = frame / double(rate);
+            REQUIRE(placeOf(step, seconds, 0).y == float(frame));
+            REQUIRE(placeOf(linear, seconds, 0).y == float(frame));
+            const double before = (frame - 0.001) / double(rate);
+            REQUIRE(placeOf(step, before, 0).y == std::max(float(frame - 1), 0.0f));
+        }
+    }
+}
+
+TEST_CASE("a linear track has no jump around its keys") {
+    // 6/60 s, stored as a float, is 1.5e-9 s above the time of the frame.
+    const Scene scene = stairs({0.0f, 6.0f / 60.0f, 1.0f}, "LINEAR");
+    const double key = 6.0f / 60.0f, slope = 10.0; // metres a second, before the key
+    float previous = placeOf(scene, key - 4e-8, 0).y;
+    for (int i = -399; i <= 400; ++i) {
+        const double seconds = key + i * 1e-10;
+        const float y = placeOf(scene, seconds, 0).y;
+        REQUIRE(y >= previous);
+        // Half a step between two floats around the key, 3.7e-9 s, is what the rounding may skip.
+        REQUIRE(std::abs(y - (1.0 + slope * std::min(0.0, seconds - key))) < 1e-7);
+        previous = y;
+    }
+}
 
 TEST_CASE("keys are met, values between them are in proportion, and the ends are held") {
     const Scene scene = family();
