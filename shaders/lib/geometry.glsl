@@ -28,9 +28,18 @@ uvec4 instanceLinks(uint instance) {
     return fetchBuffer(instances, int(instance * kTexelsPerInstance) + 6);
 }
 
+// `precise`, here and in what follows from it: a point that does not move has the same position in
+// both frames to the bit, although a compiler sees two computations, and may otherwise contract
+// products and sums in one of them alone. Sums are written out, since that holds for operators and
+// not for dot().
+float transformCoordinate(vec4 row, vec3 p) {
+    precise float sum = row.w + row.z * p.z + row.y * p.y + row.x * p.x;
+    return sum;
+}
+
 vec3 transformPoint(Affine m, vec3 p) {
-    return vec3(dot(m.rows[0], vec4(p, 1.0)), dot(m.rows[1], vec4(p, 1.0)),
-                dot(m.rows[2], vec4(p, 1.0)));
+    return vec3(transformCoordinate(m.rows[0], p), transformCoordinate(m.rows[1], p),
+                transformCoordinate(m.rows[2], p));
 }
 
 float determinant3(Affine m) {
@@ -61,10 +70,12 @@ Triangle worldTriangle(uvec3 vertex, Affine m) {
     vec3 a = transformPoint(m, vertexPosition(vertex.x));
     vec3 b = transformPoint(m, vertexPosition(vertex.y));
     vec3 c = transformPoint(m, vertexPosition(vertex.z));
-    return Triangle(a, b - a, c - a);
+    precise vec3 edge1 = b - a, edge2 = c - a;
+    return Triangle(a, edge1, edge2);
 }
 
-// The point of a visibility sample: the same expression wherever it is needed, so the same bits.
+// The point of a visibility sample.
 vec3 pointOn(Triangle t, vec2 barycentrics) {
-    return t.corner + barycentrics.x * t.edge1 + barycentrics.y * t.edge2;
+    precise vec3 point = t.corner + barycentrics.x * t.edge1 + barycentrics.y * t.edge2;
+    return point;
 }

@@ -14,10 +14,18 @@ vec3 worldRay(vec2 pixel) {
     return transpose(mat3(frame.viewFromWorld)) * viewRay(pixel);
 }
 
-// The position in pixels of a point in clip space, w > 0.
+// A point of world space in clip space; the same bits wherever it is asked for.
+vec4 clipOf(mat4 clipFromWorld, vec3 position) {
+    precise vec4 clip = clipFromWorld[0] * position.x + clipFromWorld[1] * position.y +
+                        clipFromWorld[2] * position.z + clipFromWorld[3];
+    return clip;
+}
+
+// The position in pixels of a point in clip space, w > 0; the same bits wherever it is asked for.
 vec2 pixelOf(vec4 clip) {
-    vec2 ndc = clip.xy / clip.w;
-    return vec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * vec2(frame.size);
+    precise vec2 ndc = clip.xy / clip.w;
+    precise vec2 pixel = vec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * vec2(frame.size);
+    return pixel;
 }
 
 bool isInsideFrustum(vec4 clip) {

@@ -60,11 +60,12 @@ void main() {
 
     vec3 viewPosition = (frame.viewFromWorld * vec4(position, 1.0)).xyz;
     float depth = -viewPosition.z;
-    vec4 clip = frame.clipFromWorld * vec4(position, 1.0);
-    vec4 previousClip = frame.previousClipFromWorld * vec4(before, 1.0);
+    vec4 clip = clipOf(frame.clipFromWorld, position);
+    vec4 previousClip = clipOf(frame.previousClipFromWorld, before);
     float previousDepth = -(frame.previousViewFromWorld * vec4(before, 1.0)).z;
     bool wasInFront = previousClip.w > 0.0;
-    vec2 moved = wasInFront ? pixelOf(previousClip) - pixelOf(clip) : vec2(0.0);
+    // Where nothing moves it is 0, not nearly 0: see transformPoint().
+    precise vec2 moved = wasInFront ? pixelOf(previousClip) - pixelOf(clip) : vec2(0.0);
 
     uvec4 links = instanceLinks(instance);
     int material = int(links.y * kTexelsPerMaterial);
