@@ -72,7 +72,7 @@ const GpuTexture& FrameClock::render(Renderer& renderer, const FrameInput& input
     milliseconds_.push_back(
         std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     stats_.push_back(renderer.readStats());
-    passes_.push_back(renderer.timer().lastFrame());
+    passes_.push_back(renderer.timer().finish().scopes);
     return display;
 }
 

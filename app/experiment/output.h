@@ -45,7 +45,7 @@ private:
 std::string frameStem(std::string_view name, int frame);
 
 /// How long frames took, and what they traced. Frames are finished before the clock is read;
-/// reading back and writing are left out.
+/// reading back and writing are left out. Times of passes are those of the very frame.
 class FrameClock {
 public:
     /// Renders one frame and takes its measures. Returns the display image.

@@ -130,7 +130,7 @@ void Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
     timings.addFrame(1000.0 * (gl.softwareRasterizer ? secondsSince(start) : sinceFrame));
     if (state.showPasses) {
         std::vector<PassTimings::Row> rows;
-        for (const GpuTimer::Entry& entry : renderer.timer().lastFrame())
+        for (const GpuTimer::Entry& entry : renderer.timer().newest().scopes)
             rows.push_back({entry.name, entry.milliseconds});
         timings.addPasses(rows);
     }

@@ -4,37 +4,78 @@
 #include <stdexcept>
 
 namespace afterglow {
+namespace {
+
+// Numbers of a frame's queries: first its own two, then two for each scope.
+constexpr std::size_t kFrameBegin = 0, kFrameEnd = 1;
+constexpr std::size_t beginOf(std::size_t scope) {
+    return 2 * scope + 2;
+}
+constexpr std::size_t endOf(std::size_t scope) {
+    return 2 * scope + 3;
+}
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
+}
+
+double millisecondsBetween(const GlObject<QueryKind>& begin, const GlObject<QueryKind>& end) {
+    GLuint64 from = 0, to = 0; // nanoseconds
+    glGetQueryObjectui64v(begin.id(), GL_QUERY_RESULT, &from);
+    glGetQueryObjectui64v(end.id(), GL_QUERY_RESULT, &to);
+    return to > from ? double(to - from) * 1e-6 : 0.0;
+}
+
+void add(std::vector<GpuTimer::Entry>& entries, std::string_view name, double milliseconds) {
+    const auto entry = std::ranges::find(entries, name, &GpuTimer::Entry::name);
+    if (entry != entries.end())
+        entry->milliseconds += milliseconds;
+    else
+        entries.push_back({std::string(name), milliseconds});
+}
+
+} // namespace
 
 GpuTimer::GpuTimer(bool softwareRasterizer) : software_(softwareRasterizer) {}
 
 void GpuTimer::setEnabled(bool enabled) {
     enabled_ = enabled;
     if (!enabled)
-        lastFrame_.clear();
+        newest_.scopes.clear();
 }
 
 void GpuTimer::beginFrame() {
-    if (recording_)
+    if (inFrame_)
         throw std::logic_error("a timer's frame begins before the last one has ended");
-    recording_ = enabled_;
-    thisFrame_.clear();
-    if (!recording_ || software_)
+    inFrame_ = true;
+    recordsScopes_ = enabled_;
+    ++frameNumber_;
+    if (software_) {
+        thisFrame_ = {.frame = frameNumber_, .scopes = {}};
+        glFinish();
+        frameStart_ = Clock::now();
         return;
+    }
     Frame& frame = frames_[current_];
     if (frame.pending)
         collect(frame); // as many frames late as there are places: ready, or nearly
+    frame.number = frameNumber_;
     frame.names.clear();
+    stamp(kFrameBegin);
 }
 
 void GpuTimer::endFrame() {
-    if (!recording_)
+    if (!inFrame_)
         return;
-    recording_ = false;
+    inFrame_ = recordsScopes_ = false;
     if (software_) {
-        if (enabled_)
-            lastFrame_ = std::move(thisFrame_);
+        glFinish();
+        thisFrame_.milliseconds = millisecondsSince(frameStart_);
+        publish(std::move(thisFrame_));
         return;
     }
+    stamp(kFrameEnd);
     frames_[current_].pending = true;
     current_ = (current_ + 1) % kFramesInFlight;
     // Oldest first, so that the newest that is ready comes last.
@@ -48,6 +89,13 @@ void GpuTimer::endFrame() {
     }
 }
 
+const GpuTimer::FrameTimes& GpuTimer::finish() {
+    for (std::size_t i = 0; i < kFramesInFlight; ++i)
+        if (Frame& frame = frames_[(current_ + i) % kFramesInFlight]; frame.pending)
+            collect(frame);
+    return newest_;
+}
+
 void GpuTimer::beginScope(std::string_view name) {
     if (inScope_)
         throw std::logic_error("a timer's scopes do not nest: " + std::string(name) + " inside " +
@@ -55,7 +103,7 @@ void GpuTimer::beginScope(std::string_view name) {
     inScope_ = true;
     scopeName_ = name;
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, GLsizei(name.size()), name.data());
-    if (!recording_)
+    if (!recordsScopes_)
         return;
     if (software_) {
         glFinish();
@@ -63,17 +111,16 @@ void GpuTimer::beginScope(std::string_view name) {
     } else {
         Frame& frame = frames_[current_];
         frame.names.emplace_back(name);
-        stamp(2 * frame.names.size() - 2);
+        stamp(beginOf(frame.names.size() - 1));
     }
 }
 
 void GpuTimer::endScope() {
-    if (recording_ && software_) {
+    if (recordsScopes_ && software_) {
         glFinish();
-        add(scopeName_,
-            std::chrono::duration<double, std::milli>(Clock::now() - scopeStart_).count());
-    } else if (recording_) {
-        stamp(2 * frames_[current_].names.size() - 1);
+        add(thisFrame_.scopes, scopeName_, millisecondsSince(scopeStart_));
+    } else if (recordsScopes_) {
+        stamp(endOf(frames_[current_].names.size() - 1));
     }
     glPopDebugGroup();
     inScope_ = false;
@@ -87,33 +134,27 @@ void GpuTimer::stamp(std::size_t query) {
 }
 
 bool GpuTimer::isReady(const Frame& frame) const {
-    if (frame.names.empty())
-        return true;
     GLint ready = 0;
-    glGetQueryObjectiv(frame.queries[2 * frame.names.size() - 1].id(), GL_QUERY_RESULT_AVAILABLE,
-                       &ready);
+    glGetQueryObjectiv(frame.queries[kFrameEnd].id(), GL_QUERY_RESULT_AVAILABLE, &ready);
     return ready != 0;
 }
 
+// Waits for the frame's end, unless it is ready.
 void GpuTimer::collect(Frame& frame) {
-    thisFrame_.clear();
-    for (std::size_t i = 0; i < frame.names.size(); ++i) {
-        GLuint64 begin = 0, end = 0; // nanoseconds
-        glGetQueryObjectui64v(frame.queries[2 * i].id(), GL_QUERY_RESULT, &begin);
-        glGetQueryObjectui64v(frame.queries[2 * i + 1].id(), GL_QUERY_RESULT, &end);
-        add(frame.names[i], double(end - begin) * 1e-6);
-    }
+    const auto& q = frame.queries;
+    FrameTimes times{.frame = frame.number,
+                     .milliseconds = millisecondsBetween(q[kFrameBegin], q[kFrameEnd]),
+                     .scopes = {}};
+    for (std::size_t i = 0; i < frame.names.size(); ++i)
+        add(times.scopes, frame.names[i], millisecondsBetween(q[beginOf(i)], q[endOf(i)]));
     frame.pending = false;
-    if (enabled_)
-        lastFrame_ = std::move(thisFrame_);
+    publish(std::move(times));
 }
 
-void GpuTimer::add(std::string_view name, double milliseconds) {
-    const auto entry = std::ranges::find(thisFrame_, name, &Entry::name);
-    if (entry != thisFrame_.end())
-        entry->milliseconds += milliseconds;
-    else
-        thisFrame_.push_back({std::string(name), milliseconds});
+void GpuTimer::publish(FrameTimes times) {
+    newest_ = std::move(times);
+    if (!enabled_)
+        newest_.scopes.clear();
 }
 
 } // namespace afterglow

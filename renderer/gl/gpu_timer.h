@@ -4,18 +4,19 @@
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace afterglow {
 
-/// How long each part of a frame took, in the order of the parts. Every scope is also a debug
+/// How long a frame took and, where that is wanted, each part of it. Every scope is also a debug
 /// group, so that frame debuggers show the same names.
 ///
 /// On a GPU: timestamps, read a few frames late so that nobody waits. On a software rasterizer,
-/// whose queries read 0: glFinish() and a clock, which makes the frame somewhat slower while
-/// enabled.
+/// whose queries read 0: glFinish() and a clock, around the frame and, while enabled, around each
+/// scope, which makes the frame somewhat slower.
 class GpuTimer {
 public:
     explicit GpuTimer(bool softwareRasterizer);
@@ -35,7 +36,7 @@ public:
     /// or disabled, it is a debug group and nothing else.
     [[nodiscard]] Scope scope(std::string_view name) { return Scope(*this, name); }
 
-    void setEnabled(bool enabled); ///< from the next frame on; off at first
+    void setEnabled(bool enabled); ///< the times of scopes, from the next frame on; off at first
     bool enabled() const { return enabled_; }
 
     void beginFrame();
@@ -45,9 +46,17 @@ public:
         std::string name;
         double milliseconds;
     };
-    /// The newest frame whose times are known; scopes of one name are summed, where the first
-    /// stood.
-    const std::vector<Entry>& lastFrame() const { return lastFrame_; }
+    struct FrameTimes {
+        std::uint64_t frame = 0;   ///< the first frame of this timer is 1; 0: none is known
+        double milliseconds = 0.0; ///< of the device, from beginFrame() to endFrame()
+        /// In the order of the frame; those of one name are summed, where the first stood. Empty
+        /// unless enabled.
+        std::vector<Entry> scopes;
+    };
+    /// The newest frame whose times are known.
+    const FrameTimes& newest() const { return newest_; }
+    /// The frame that ended last. Waits until the device has finished it.
+    const FrameTimes& finish();
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -56,8 +65,9 @@ private:
     /// The scopes of one frame with their queries. Queries are kept for the next frame in this
     /// place.
     struct Frame {
+        std::uint64_t number = 0;
         std::vector<std::string> names;
-        std::vector<GlObject<QueryKind>> queries; ///< begin and end of each scope
+        std::vector<GlObject<QueryKind>> queries; ///< begin and end of the frame, of each scope
         bool pending = false;
     };
 
@@ -66,12 +76,13 @@ private:
     void stamp(std::size_t query);
     bool isReady(const Frame& frame) const;
     void collect(Frame& frame);
-    void add(std::string_view name, double milliseconds);
+    void publish(FrameTimes times);
 
     bool software_;
-    bool enabled_ = false, recording_ = false, inScope_ = false;
-    std::vector<Entry> lastFrame_, thisFrame_;
-    Clock::time_point scopeStart_;
+    bool enabled_ = false, inFrame_ = false, recordsScopes_ = false, inScope_ = false;
+    std::uint64_t frameNumber_ = 0; ///< of the frame that began last
+    FrameTimes newest_, thisFrame_;
+    Clock::time_point frameStart_, scopeStart_;
     std::string scopeName_;
     std::array<Frame, kFramesInFlight> frames_;
     std::size_t current_ = 0;

@@ -37,19 +37,54 @@ TEST_CASE("a timer lists the scopes of a frame in order and sums those of one na
         CAPTURE(software);
         GpuTimer timer(software);
         timer.setEnabled(true);
-        for (int frame = 0; frame < 6; ++frame)
-            runFrame(timer, {"trace", "filter", "trace", "filter", "show"});
-        glFinish();
-        runFrame(timer, {"last"});
-        glFinish();
-        runFrame(timer, {"last"});
-        CHECK((namesOf(timer.lastFrame()) == std::vector<std::string>{"trace", "filter", "show"} ||
-               namesOf(timer.lastFrame()) == std::vector<std::string>{"last"}));
-        for (int frame = 0; frame < 5; ++frame)
-            runFrame(timer, {"last"});
-        CHECK(namesOf(timer.lastFrame()) == std::vector<std::string>{"last"});
-        for (const auto& entry : timer.lastFrame())
+        runFrame(timer, {"trace", "filter", "trace", "filter", "show"});
+        const GpuTimer::FrameTimes& times = timer.finish();
+        CHECK(namesOf(times.scopes) == std::vector<std::string>{"trace", "filter", "show"});
+        for (const auto& entry : times.scopes)
             CHECK(entry.milliseconds >= 0.0);
+    }
+}
+
+TEST_CASE("the times of the frame that ended last can be waited for, and no frame has another's") {
+    testContext();
+    const GlCheck check;
+    const std::vector<std::vector<const char*>> frames{
+        {"a", "b"}, {"a"}, {}, {"b", "c", "d"}, {"e"}, {"a", "b"}, {"f"}};
+    for (const bool software : {true, false}) {
+        CAPTURE(software);
+        GpuTimer timer(software);
+        CHECK(timer.finish().frame == 0);
+        timer.setEnabled(true);
+        std::uint64_t number = 0;
+        const auto run = [&] {
+            const auto& names = frames[number % frames.size()];
+            timer.beginFrame();
+            for (const char* name : names)
+                const GpuTimer::Scope scope = timer.scope(name);
+            timer.endFrame();
+            ++number;
+        };
+        const auto isWhole = [&](const GpuTimer::FrameTimes& times) {
+            const auto& names = frames[(times.frame - 1) % frames.size()];
+            return namesOf(times.scopes) == std::vector<std::string>(names.begin(), names.end());
+        };
+        for (int i = 0; i < 9; ++i) { // one after the other
+            run();
+            CHECK(timer.finish().frame == number);
+            CHECK(isWhole(timer.newest()));
+        }
+        std::uint64_t known = number;
+        for (int i = 0; i < 17; ++i) { // nobody waits
+            run();
+            CHECK(timer.newest().frame >= known);
+            known = timer.newest().frame;
+            CHECK(known <= number);
+            CHECK(known + 4 >= number);
+            CHECK(isWhole(timer.newest()));
+        }
+        CHECK(timer.finish().frame == number);
+        CHECK(isWhole(timer.newest()));
+        CHECK(timer.finish().frame == number); // as often as wanted
     }
 }
 
@@ -84,33 +119,36 @@ void main() {
     timer.endFrame();
     glFinish();
     const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-    for (int frame = 0; frame < 4 && timer.lastFrame().empty(); ++frame) {
-        timer.beginFrame();
-        timer.endFrame();
-    }
-    REQUIRE(namesOf(timer.lastFrame()) == std::vector<std::string>{"work", "nothing"});
-    const double worked = timer.lastFrame()[0].milliseconds;
+    const GpuTimer::FrameTimes& times = timer.finish();
+    REQUIRE(namesOf(times.scopes) == std::vector<std::string>{"work", "nothing"});
+    const double worked = times.scopes[0].milliseconds;
     CHECK(worked > 0.0);
-    CHECK(worked <= wall.count());
-    CHECK(timer.lastFrame()[1].milliseconds < 0.5 * worked);
+    CHECK(times.scopes[1].milliseconds < 0.5 * worked);
+    CHECK(worked <= times.milliseconds);
+    CHECK(times.milliseconds <= wall.count());
     MESSAGE("work ", worked, " ms of ", wall.count(), " ms");
 }
 
-TEST_CASE("a timer that is off, or outside a frame, records nothing") {
+TEST_CASE("a timer that is off times whole frames, and outside a frame it records nothing") {
     testContext();
     const GlCheck check;
     for (const bool software : {true, false}) {
+        CAPTURE(software);
         GpuTimer timer(software);
         runFrame(timer, {"trace"});
-        CHECK(timer.lastFrame().empty());
+        CHECK(timer.finish().frame == 1);
+        CHECK(timer.newest().scopes.empty());
         timer.setEnabled(true);
         { const auto scope = timer.scope("no frame"); }
-        CHECK(timer.lastFrame().empty());
-        for (int frame = 0; frame < 6; ++frame)
-            runFrame(timer, {"trace"});
-        CHECK(namesOf(timer.lastFrame()) == std::vector<std::string>{"trace"});
+        CHECK(timer.finish().frame == 1);
+        CHECK(timer.newest().scopes.empty());
+        runFrame(timer, {"trace"});
+        CHECK(namesOf(timer.finish().scopes) == std::vector<std::string>{"trace"});
+        runFrame(timer, {"trace"});
         timer.setEnabled(false);
-        CHECK(timer.lastFrame().empty());
+        CHECK(timer.newest().scopes.empty());
+        CHECK(timer.finish().frame == 3); // also what was on its way
+        CHECK(timer.newest().scopes.empty());
     }
 }
 
