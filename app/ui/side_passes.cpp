@@ -199,21 +199,34 @@ void list(const PanelContext& panel) {
     ImGui::PopFont();
 }
 
+std::string whatIsTimed(bool software) {
+    return std::string("The median of fifteen frames, each from the beginning of its first pass to "
+                       "the end of its last one, ") +
+           (software ? "by the clock, finished before and after"
+                     : "by the GPU's own clock, known some frames later") +
+           ". Probes, the interface and the wait for the screen are not in it.";
+}
+
 void totals(const PanelContext& panel) {
     const PassTimings& timings = panel.bench.timings();
     ImGui::PushFont(panel.fonts.large);
     ImGui::TextUnformatted(formatted("%.1f ms", timings.frame()).c_str());
     ImGui::PopFont();
     ImGui::PushFont(panel.fonts.small);
+    const bool software = panel.bench.gl().softwareRasterizer;
+    const std::string meaning = whatIsTimed(software);
+    tooltip(meaning);
     if (timings.frame() > 0.0) {
         ImGui::SameLine(0.0f, 0.6f * em());
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * em());
-        dimText(formatted("%.1f frames and %.2f M rays a second", 1000.0 / timings.frame(),
+        dimText(formatted("time for %.1f frames and %.2f M rays a second", 1000.0 / timings.frame(),
                           panel.bench.raysPerSecond() * 1e-6));
+        tooltip(meaning);
     }
-    dimText(formatted("All passes %.2f ms, %s", timings.passTotal(),
-                      panel.bench.gl().softwareRasterizer ? "rendered without a GPU, by the clock"
-                                                          : "by the GPU's own clock"));
+    dimText(
+        formatted("All passes %.2f ms, %s", timings.passTotal(),
+                  software ? "rendered without a GPU, by the clock" : "by the GPU's own clock"));
+    tooltip(meaning);
     graph(timings);
     dimText("A click shows what a pass made. Step a pass: . and ,");
     ImGui::PopFont();

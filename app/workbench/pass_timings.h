@@ -7,7 +7,7 @@
 
 namespace afterglow {
 
-/// Milliseconds of the passes and of whole frames, smoothed so that they can be read. The first
+/// Milliseconds that the device worked for passes and for whole frames, smoothed so that they can be read. The first
 /// time of a pass may include compiling its shader and is soon forgotten.
 class PassTimings {
 public:

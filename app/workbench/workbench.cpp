@@ -1,7 +1,6 @@
 #include "app/workbench/workbench_impl.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 namespace afterglow {
@@ -10,11 +9,6 @@ namespace {
 constexpr double kStatsSeconds = 0.5;        // between two readings of counters, which wait
 constexpr double kReloadSeconds = 0.5;       // between two looks at the shader files
 constexpr double kOracleMilliseconds = 30.0; // of every round in which the truth converges
-
-using Clock = std::chrono::steady_clock;
-double secondsSince(Clock::time_point before) {
-    return std::chrono::duration<double>(Clock::now() - before).count();
-}
 
 } // namespace
 
@@ -123,23 +117,29 @@ void Workbench::Impl::render(const FrameMoment& moment) {
 
 void Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
     const FrameMoment moment = prepareFrame(view);
-    const Clock::time_point start = Clock::now();
     render(moment);
-    if (gl.softwareRasterizer)
-        glFinish(); // on a GPU the pace of whole rounds says more
-    timings.addFrame(1000.0 * (gl.softwareRasterizer ? secondsSince(start) : sinceFrame));
-    if (state.showPasses) {
-        std::vector<PassTimings::Row> rows;
-        for (const GpuTimer::Entry& entry : renderer.timer().newest().scopes)
-            rows.push_back({entry.name, entry.milliseconds});
-        timings.addPasses(rows);
-    }
+    noteTimes();
     sinceFrame = 0.0;
     measure(moment);
     before = std::move(now);
     now = moment;
     nowSeed = state.seed;
     frameRendered(state.time, wallSeconds);
+}
+
+// Of the newest frame whose times are known: on a GPU not the last one, and not one in every round.
+void Workbench::Impl::noteTimes() {
+    const GpuTimer::FrameTimes& times = renderer.timer().newest();
+    if (times.frame == timedFrame)
+        return;
+    timedFrame = times.frame;
+    timings.addFrame(times.milliseconds);
+    if (times.scopes.empty())
+        return;
+    std::vector<PassTimings::Row> rows;
+    for (const GpuTimer::Entry& entry : times.scopes)
+        rows.push_back({entry.name, entry.milliseconds});
+    timings.addPasses(rows);
 }
 
 void Workbench::Impl::measure(const FrameMoment& moment) {

@@ -51,9 +51,9 @@ public:
     const Renderer& renderer() const;
     const Scene& scene() const;
     const GlInfo& gl() const;
-    const PassTimings& timings() const;
-    const FrameStats& stats() const; ///< of a recent frame
-    double raysPerSecond() const;
+    const PassTimings& timings() const; ///< of the device's work for frames, and for nothing else
+    const FrameStats& stats() const;    ///< of a recent frame
+    double raysPerSecond() const;       ///< of a frame, in the time that the device worked for it
     const ProbeLog& probeLog() const;
     /// Of the last frame, of a pane that is shown; kept up to date while the inspector is open.
     std::optional<ReasonCounts> reasons(std::size_t pane) const;

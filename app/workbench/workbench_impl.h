@@ -17,6 +17,7 @@ struct Workbench::Impl {
     void renderFrame(double wallSeconds, glm::ivec2 view);
     FrameMoment prepareFrame(glm::ivec2 view);
     void render(const FrameMoment& moment);
+    void noteTimes();
     void measure(const FrameMoment& moment);
     void followFreeze();
     void stepPass(int step);
@@ -53,6 +54,7 @@ struct Workbench::Impl {
     FrameRecorder recorder;
 
     PassTimings timings;
+    std::uint64_t timedFrame = 0; ///< of the renderer's timer, that `timings` has last
     FrameStats stats;
     double raysPerSecond = 0.0;
     double sinceFrame = 0.0, sinceStats = 0.0, sinceReload = 0.0; ///< seconds
