@@ -29,33 +29,31 @@ public:
         : renderer_(renderer), advanced_(advanced) {
         // The device counts in 32 bits over the whole image, and a pixel has at most two rays.
         const auto pixels = std::uint64_t(renderer.size().x) * std::uint64_t(renderer.size().y);
-        largestPortion_ = int(std::clamp<std::uint64_t>((~0u) / (2 * pixels), 1, 1 << 16));
+        portions_ = SamplePortions(
+            int(std::clamp<std::uint64_t>((~0u) / (2 * pixels), 1, std::uint64_t(1) << 16)));
     }
 
     void addUpTo(int target) {
         while (done_ < target) {
             const auto start = Clock::now();
-            const int portion = std::min({portion_, largestPortion_, target - done_});
+            const int portion = std::min(portions_.next(), target - done_);
             renderer_.addReferenceSamples(portion);
             done_ += portion;
-            const auto now = std::uint32_t(renderer_.readStats().rays);
+            const auto now = std::uint32_t(renderer_.readStats().rays); // waits for the device
+            portions_.took(portion, millisecondsSince(start));
             rays_ += std::uint32_t(now - counted_);
             counted_ = now;
             if (advanced_)
                 advanced_(portion);
-            // Reading makes a GPU wait: as often as progress is to move, and no more.
-            if (millisecondsSince(start) < kShortest && portion == portion_)
-                portion_ = std::min(2 * portion_, largestPortion_);
         }
     }
     std::uint64_t rays() const { return rays_; }
 
 private:
-    static constexpr double kShortest = 50.0; ///< milliseconds
-
     Renderer& renderer_;
     const std::function<void(int)>& advanced_;
-    int portion_ = 4, largestPortion_ = 1, done_ = 0;
+    SamplePortions portions_{1};
+    int done_ = 0;
     std::uint32_t counted_ = 0;
     std::uint64_t rays_ = 0;
 };
@@ -76,6 +74,11 @@ std::size_t bytesOf(const Reference& reference) {
 }
 
 } // namespace
+
+void SamplePortions::took(int samples, double milliseconds) {
+    const double fitting = milliseconds > 0.0 ? samples * kMilliseconds / milliseconds : most_;
+    next_ = int(std::clamp(fitting, 1.0, double(std::min(2 * next_, most_))));
+}
 
 Mask foregroundOf(const Renderer& renderer) {
     const auto guides = renderer.targets().guides.current().read<glm::vec4>();

@@ -22,6 +22,23 @@ constexpr std::uint32_t referenceSeed(std::uint32_t seed) {
     return seed ^ 0x9e3779b9u;
 }
 
+/// How many samples of a reference the device is given at a time. Drivers end programs that keep a
+/// device busy for seconds, and waiting for it after every sample would take longer than the
+/// samples: the first portion is one sample, and what portions take sets how long the next one is.
+class SamplePortions {
+public:
+    static constexpr double kMilliseconds = 50.0; ///< that a portion is to take
+
+    /// `most`: samples that a portion has at most, from 1 to 2^16.
+    explicit SamplePortions(int most) : most_(most) {}
+
+    int next() const { return next_; } ///< at least 1; at most twice the one before
+    void took(int samples, double milliseconds);
+
+private:
+    int next_ = 1, most_;
+};
+
 /// Averages so many samples a pixel, at least 1, of the surfaces of `seen` in the light of `world`:
 /// see Renderer::beginReference(). Afterwards the renderer shows it; its histories are void.
 /// `advanced` is told of every portion of samples as it is done.
