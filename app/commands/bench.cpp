@@ -66,11 +66,7 @@ void runBench(const BenchOptions& options, HiddenContextFactory hiddenContext) {
                               size.y, std::string(nameOf(filter)).c_str(),
                               clock.medianMilliseconds(), raysText(clock.raysPerSecond()).c_str());
                 table += line;
-                for (const FrameClock::Pass& pass : clock.passes()) {
-                    std::snprintf(line, sizeof line, "    %-28s %9.3f ms\n", pass.name.c_str(),
-                                  pass.median);
-                    table += line;
-                }
+                table += passTable(clock);
                 Json run{{"size", {size.x, size.y}}, {"filter", nameOf(filter)}};
                 run.update(describe(clock));
                 runs.push_back(run);

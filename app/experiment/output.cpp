@@ -128,7 +128,8 @@ std::vector<FrameClock::Pass> FrameClock::passes() const {
         for (std::size_t i = std::size_t(std::max(warmup(), 0)); i < passes_.size(); ++i)
             if (pass.milliseconds[i])
                 counted.push_back(*pass.milliseconds[i]);
-        pass.median = median(std::move(counted));
+        if (!counted.empty())
+            pass.median = median(std::move(counted));
     }
     return passes;
 }
@@ -165,7 +166,8 @@ Json describe(const Scene& scene, const SceneStats& stats) {
 Json describe(const FrameClock& clock) {
     Json passMedians = Json::object(), passes = Json::object();
     for (const FrameClock::Pass& pass : clock.passes()) {
-        passMedians[pass.name] = pass.median;
+        if (pass.median)
+            passMedians[pass.name] = *pass.median;
         for (const std::optional<double>& ms : pass.milliseconds)
             passes[pass.name].push_back(ms ? Json(*ms) : Json(nullptr));
     }
@@ -184,6 +186,18 @@ Json describe(const FrameClock& clock) {
             {"pass_ms", passes},
             {"rays_per_frame", rays},
             {"gradient_samples_per_frame", gradientSamples}};
+}
+
+std::string passTable(const FrameClock& clock) {
+    std::string table;
+    for (const FrameClock::Pass& pass : clock.passes()) {
+        if (!pass.median)
+            continue;
+        char line[160];
+        std::snprintf(line, sizeof line, "    %-28s %9.3f ms\n", pass.name.c_str(), *pass.median);
+        table += line;
+    }
+    return table;
 }
 
 std::string raysText(double raysPerSecond) {

@@ -66,7 +66,8 @@ public:
     struct Pass {
         std::string name;
         std::vector<std::optional<double>> milliseconds{}; ///< one a frame; empty: it did not run
-        double median = 0.0;
+        std::optional<double>
+            median{}; ///< of the frames after the warm-up in which it ran; empty: none
     };
     std::vector<Pass> passes() const; ///< in the order in which they run
 
@@ -81,6 +82,9 @@ double median(std::vector<double> values); ///< 0 of none
 nlohmann::ordered_json describe(const GlInfo& gl);
 nlohmann::ordered_json describe(const Scene& scene, const SceneStats& stats);
 nlohmann::ordered_json describe(const FrameClock& clock);
+
+/// A line for each pass that ran after the warm-up, with its median.
+std::string passTable(const FrameClock& clock);
 
 /// "12.3 M rays/s"
 std::string raysText(double raysPerSecond);

@@ -7,8 +7,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
+#include <span>
+#include <string>
+#include <vector>
 
 using namespace afterglow;
 using namespace afterglow::test;
@@ -18,8 +22,8 @@ namespace {
 /// By pass: whether it ran, frame by frame.
 using Ran = std::map<std::string, std::vector<bool>>;
 
-/// Another filter in every frame, by queries or by the clock.
-Ran passesOf(bool software) {
+/// Renders these filters one after the other and times their passes, by queries or by the clock.
+FrameClock clocked(std::span<const Filter> filters, bool software) {
     GlInfo gl = glInfo(testContext());
     gl.softwareRasterizer = software;
     Renderer renderer(testShaders(), gl);
@@ -28,11 +32,14 @@ Ran passesOf(bool software) {
     renderer.timer().setEnabled(true);
     FrameClock clock;
     const Camera camera = cameraAt(renderer.scene(), poseAt(renderer.scene(), 0.0));
-    constexpr std::array filters{Filter::Asvgf, Filter::None, Filter::Svgf, Filter::Fixed};
-    for (std::uint32_t frame = 0; frame < 9; ++frame)
+    for (std::uint32_t frame = 0; frame < filters.size(); ++frame)
         clock.render(renderer,
                      {.camera = camera, .seconds = 0.0, .frame = frame, .seed = 1, .lights = {}},
-                     settingsOf(filters[frame % filters.size()]));
+                     settingsOf(filters[frame]));
+    return clock;
+}
+
+Ran passesOf(const FrameClock& clock) {
     Ran ran;
     for (const FrameClock::Pass& pass : clock.passes())
         for (const auto& milliseconds : pass.milliseconds)
@@ -44,9 +51,33 @@ Ran passesOf(bool software) {
 
 TEST_CASE("each frame has the times of its own passes, by queries as by the clock") {
     const GlCheck noGlMessages;
-    const Ran byClock = passesOf(true), byQueries = passesOf(false);
-    CHECK(byQueries == byClock);
+    using enum Filter;
+    constexpr std::array filters{Asvgf, None, Svgf, Fixed, Asvgf, None, Svgf, Fixed, Asvgf};
+    const Ran byClock = passesOf(clocked(filters, true));
+    CHECK(passesOf(clocked(filters, false)) == byClock);
     CHECK(byClock.at("lighting") == std::vector<bool>(9, true));
     CHECK(byClock.at("temporal") == std::vector<bool>{1, 0, 1, 1, 1, 0, 1, 1, 1});
     CHECK(byClock.at("lambda") == std::vector<bool>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+}
+
+TEST_CASE("a pass that ran in the warm-up alone has no median, and no line in a table") {
+    const GlCheck noGlMessages;
+    using enum Filter;
+    constexpr std::array filters{Asvgf, Svgf, Svgf, Fixed, None, Fixed};
+    const FrameClock clock = clocked(filters, true);
+    REQUIRE(clock.warmup() == 3);
+    const auto described = describe(clock);
+    const std::string table = passTable(clock);
+    for (const char* name : {"lighting", "temporal", "tone map"}) {
+        CAPTURE(name);
+        CHECK(described.at("pass_ms_median").at(name) > 0.0);
+        CHECK(table.find("    " + std::string(name) + " ") != std::string::npos);
+    }
+    for (const char* name : {"lambda", "variance"}) {
+        CAPTURE(name);
+        CHECK(described.at("pass_ms").at(name).size() == filters.size());
+        CHECK_FALSE(described.at("pass_ms_median").contains(name));
+        CHECK(table.find(name) == std::string::npos);
+    }
+    CHECK(std::ranges::count(table, '\n') == std::ptrdiff_t(described.at("pass_ms_median").size()));
 }
