@@ -10,7 +10,8 @@ set(bvh_may "base;image;scene;bvh")
 set(gl_may "base;image;gl")
 set(resources_may "base;image;scene;bvh;gl;resources")
 set(passes_may "base;image;scene;bvh;gl;resources;passes")
-set(pipeline_may "base;image;scene;bvh;gl;resources;passes;pipeline")
+set(filters_may "base;image;scene;bvh;gl;resources;passes;filters")
+set(pipeline_may "base;image;scene;bvh;gl;resources;passes;filters;pipeline")
 
 # Foreign libraries and the files that may see them.
 set(foreign

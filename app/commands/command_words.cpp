@@ -42,7 +42,8 @@ CLI::Option* addOption(CLI::App& app, const std::string& name, Text& text, const
 }
 
 void PictureWords::addSettings(CLI::App& app) {
-    addOption(app, "--signal", signal, "NAME", "shadows, ao or both [both]");
+    addOption(app, "--signal", signal, "NAME",
+              "shadows, ao, both or separate: both, each filtered by itself [both]");
     addOption(app, "--set", settings, "KEY=VALUE",
               "One tunable of the renderer; again for more. See: afterglow list settings");
 }

@@ -136,7 +136,7 @@ std::vector<const AovInfo*> chosenAovs(const std::vector<std::string>& names) {
     std::vector<const AovInfo*> chosen;
     for (const std::string& name : names) {
         const AovInfo& aov = aovByName(name);
-        if (!isMadeBy(aov, Filter::None, {}))
+        if (!isMadeBy(aov, FilterSettings{Filter::None, {}}))
             throw UsageError("--aov " + name +
                              ": --export stands for the filter none, which does not make it");
         if (std::ranges::find(chosen, &aov) == chosen.end())

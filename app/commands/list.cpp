@@ -71,7 +71,7 @@ std::vector<Line> aovLines() {
     for (const AovInfo& aov : aovs()) {
         std::string makers;
         for (Filter filter : allFilters())
-            if (isMadeBy(aov, filter, DenoiserSettings{}))
+            if (isMadeBy(aov, FilterSettings{filter, {}}))
                 makers += (makers.empty() ? "" : ", ") + std::string(nameOf(filter));
         lines.push_back(
             {std::string(aov.name),
@@ -92,7 +92,7 @@ std::vector<Line> settingLines() {
     std::vector<Line> lines;
     Settings defaults;
     for (const Field& field : fields()) {
-        const Field::Ref ref = field.ref(defaults);
+        const Field::Ref ref = field.in(defaults);
         std::string range;
         if (!field.choices.empty()) {
             range = std::string(field.choices[std::size_t(*std::get<int*>(ref))]) + "; one of ";

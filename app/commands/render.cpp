@@ -1,5 +1,6 @@
 #include "app/commands/render.h"
 
+#include "app/experiment/aov_files.h"
 #include "app/experiment/output.h"
 #include "app/experiment/progress.h"
 #include "app/experiment/reference.h"
@@ -20,10 +21,10 @@ std::vector<const AovInfo*> chosenAovs(const RenderOptions& options) {
     std::vector<const AovInfo*> chosen;
     for (const std::string& name : options.aovs) {
         const AovInfo& aov = aovByName(name);
-        if (!isMadeBy(aov, options.settings.filter, options.settings.denoiser)) {
+        if (!isMadeBy(aov, options.settings)) {
             std::string makers;
             for (Filter filter : allFilters())
-                if (isMadeBy(aov, filter, options.settings.denoiser))
+                if (isMadeBy(aov, FilterSettings{filter, options.settings.denoiser}))
                     makers += (makers.empty() ? "" : ", ") + std::string(nameOf(filter));
             throw UsageError("--aov " + name + ": the filter " +
                              std::string(nameOf(options.settings.filter)) + " does not make it" +
@@ -55,8 +56,7 @@ public:
     void write(const Renderer& renderer, const GpuTexture& display, int frame) {
         folder_.writePng(frameStem("color", frame) + ".png", display.read<glm::u8vec4>());
         for (const AovInfo* aov : aovs_)
-            folder_.writeFloat(frameStem(aov->name, frame), format_, readAov(renderer, *aov),
-                               aov->channels);
+            writeAov(folder_, format_, renderer, *aov, frame);
         frames_.push_back(frame);
     }
 

@@ -71,12 +71,7 @@ std::string readScene(const JsonReader& json, std::string_view source) {
 }
 
 Signal readSignal(const JsonReader& json) {
-    constexpr std::array<Signal, 3> signals = {Signal::Shadows, Signal::AmbientOcclusion,
-                                               Signal::Both};
-    std::vector<std::string_view> names;
-    for (const Signal signal : signals)
-        names.push_back(nameOf(signal));
-    return signals[json.choice(names)];
+    return allSignals()[json.choice(signalNames())];
 }
 
 Filter readFilter(const JsonReader& json) {

@@ -1,5 +1,6 @@
 #include "app/experiment/export_frames.h"
 
+#include "app/experiment/aov_files.h"
 #include "app/experiment/machine.h"
 #include "app/experiment/run_files.h"
 #include "app/experiment/truth.h"
@@ -58,7 +59,8 @@ Json conventions() {
         {"pixels", "row 0 is the top; the center of pixel (x, y), counted from 0, is at "
                    "(x + 0.5, y + 0.5)"},
         {"signal", "raw is one frame's noise, linear, without albedo: "
-                   "lit = raw * albedo, color = lit + emission, per channel"},
+                   "lit = raw * albedo, color = lit + emission, per channel; of several signals "
+                   "(raw_shadows, raw_ao) lit is the sum"},
         {"background", "depth 0: there is no surface, and nothing is measured"},
         {"depth", "distance along the view axis, metres"},
         {"motion", "in the frame before, what (x + 0.5, y + 0.5) shows was at "
@@ -80,7 +82,7 @@ Json conventions() {
 
 /// The third channel of the motion texture, 0 where the fourth says that there was nothing to see.
 Image<glm::vec4> previousDepth(const Renderer& renderer) {
-    auto image = renderer.targets().motion.read<glm::vec4>();
+    auto image = renderer.targets().surfaces.motion.read<glm::vec4>();
     for (glm::vec4& pixel : image.pixels())
         pixel = glm::vec4(pixel.w > 0.0f ? pixel.z : 0.0f, 0.0f, 0.0f, 0.0f);
     return image;
@@ -109,8 +111,7 @@ void exportFrames(const Experiment& experiment, const RunPlan& plan, Renderer& r
         const FrameInput input = truths.inputAt(frame);
         renderer.render(input, settings);
         for (const AovInfo* aov : aovs)
-            folder.writeFloat(frameStem(aov->name, frame), format, readAov(renderer, *aov),
-                              aov->channels);
+            writeAov(folder, format, renderer, *aov, frame);
         folder.writeFloat(frameStem(kPreviousDepth, frame), format, previousDepth(renderer), "Y");
         frames.push_back({{"frame", frame},
                           {"seconds", input.seconds},
@@ -120,8 +121,10 @@ void exportFrames(const Experiment& experiment, const RunPlan& plan, Renderer& r
     }
 
     Json files = Json::object();
+    const auto signals = renderer.signals();
     for (const AovInfo* aov : aovs)
-        files[std::string(aov->name)] = describe(*aov);
+        for (std::size_t i = 0; i < (isPerSignal(*aov) ? signals.size() : 1); ++i)
+            files[fileStem(*aov, signals[i], signals.size())] = describe(*aov);
     files[std::string(kPreviousDepth)] = {
         {"channels", "Y"}, {"meaning", "depth of the surface a frame ago, metres; 0 is none"}};
     folder.writeJson(kAccount, {{"program", "afterglow"},

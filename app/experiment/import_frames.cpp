@@ -176,8 +176,8 @@ Image<glm::vec4> ImportedFrames::read(int frame) const {
 
 FrameImages ImportedFrames::show(int frame, Renderer& renderer, const Settings& settings) const {
     const Image<glm::vec4> given = read(frame);
-    const auto albedo = renderer.targets().albedo.read<glm::vec4>();
-    const auto emission = renderer.targets().emission.read<glm::vec4>();
+    const auto albedo = renderer.targets().surfaces.albedo.read<glm::vec4>();
+    const auto emission = renderer.targets().surfaces.emission.read<glm::vec4>();
     const Mask foreground = foregroundOf(renderer);
 
     Image<glm::vec4> lit(size_), signal(size_);
@@ -198,8 +198,11 @@ FrameImages ImportedFrames::show(int frame, Renderer& renderer, const Settings& 
             if (const float reflected = albedo.pixels()[i][channel]; reflected > 0.0f)
                 signal.pixels()[i][channel] = value[channel] / reflected;
     }
-    renderer.showReference(signal, settings);
-    FrameImages images = readFrame(renderer, settings, false);
+    // Of several signals the first stands for their sum.
+    std::vector<Image<glm::vec4>> signals(renderer.signals().size(), Image<glm::vec4>(size_));
+    signals[0] = std::move(signal);
+    renderer.showReference(signals, settings);
+    FrameImages images = readFrame(renderer, false);
     if (quantity_ != Quantity::Signal)
         images.lit = std::move(lit);
     if (quantity_ == Quantity::Display)

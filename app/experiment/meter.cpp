@@ -2,19 +2,12 @@
 
 #include "app/experiment/oracle.h"
 #include "renderer/image/ssim.h"
-#include "renderer/pipeline/aov.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace afterglow {
 namespace {
-
-/// Of the history that was fetched at each pixel: the temporal pass leaves it in the alpha of its
-/// blend, which is the history itself where nothing is fed back from the spatial filter.
-Image<float> historyLuminance(const FilterTargets& t, const DenoisePlan& plan) {
-    const GpuTexture& blend = plan.feedbackIteration == 0 ? t.color.current() : t.accumulated;
-    return channelOf(blend.read<glm::vec4>(), 3);
-}
 
 Image<glm::vec4> unitRange(const Image<glm::u8vec4>& image) {
     Image<glm::vec4> result(image.size());
@@ -25,23 +18,32 @@ Image<glm::vec4> unitRange(const Image<glm::u8vec4>& image) {
 
 } // namespace
 
-FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl,
-                      std::size_t state) {
-    const FilterTargets& own = renderer.targets().filters.at(state);
+FrameImages readFrame(const Renderer& renderer, bool withControl, std::size_t state) {
     FrameImages images;
     images.lit = litRadiance(renderer, state);
-    images.display = own.display.read<glm::u8vec4>();
-    const DenoisePlan plan = makePlan(settings.filter, settings.denoiser);
-    if (withControl && plan.useLambda)
-        images.lambda = own.lambda.read<float>();
-    if (withControl && plan.accumulate) {
-        const auto control = own.control.read<glm::vec4>();
-        images.alpha = channelOf(control, 1);
-        images.history = historyLuminance(own, plan);
-        images.hasHistory = foregroundOf(renderer);
-        for (std::size_t i = 0; i < control.pixels().size(); ++i)
-            if (control.pixels()[i].w != float(gpu::kHistoryKept))
-                images.hasHistory.pixels()[i] = 0;
+    images.display = renderer.display(state).read<glm::u8vec4>();
+    if (!withControl)
+        return images;
+    for (std::size_t signal = 0; signal < renderer.signals().size(); ++signal) {
+        const auto channel = [&](std::string_view aov) -> Image<float> {
+            const Renderer::FilterImage image = renderer.filterImage(aov, state, signal);
+            if (!image.texture)
+                return {};
+            if (image.texture->format() == PixelFormat::R32F)
+                return image.texture->read<float>();
+            return channelOf(image.texture->read<glm::vec4>(), image.channel);
+        };
+        ControlImages& control = images.control.emplace_back();
+        control.lambda = channel("lambda_strata");
+        control.alpha = channel("alpha");
+        if (control.alpha.size().x == 0)
+            continue;
+        control.history = channel("history_luminance");
+        control.hasHistory = foregroundOf(renderer);
+        const Image<float> reason = channel("reason");
+        for (std::size_t i = 0; i < reason.pixels().size(); ++i)
+            if (reason.pixels()[i] != float(gpu::kHistoryKept))
+                control.hasHistory.pixels()[i] = 0;
     }
     return images;
 }
@@ -147,46 +149,75 @@ void Meter::measureTrail(int frame, const FrameImages& images) {
     add("ghost_energy", trail->ghostEnergy(images.lit));
 }
 
+// Of several signals a metric is the mean, beside those of each.
 void Meter::measureControl(int frame, const FrameImages& images) {
+    ofSignals_.clear();
+    for (std::size_t signal = 0; signal < images.control.size(); ++signal) {
+        measureLambda(frame, images.control[signal].lambda, signal);
+        measureAlpha(frame, images.control[signal], signal);
+    }
+    for (const auto& [metric, values] : ofSignals_)
+        add(metric, std::accumulate(values.begin(), values.end(), 0.0) / double(values.size()));
+}
+
+void Meter::addOfSignal(std::size_t signal, const char* metric, double value) {
+    auto row = std::ranges::find(ofSignals_, metric, [](const auto& r) { return r.first; });
+    if (row == ofSignals_.end())
+        row = ofSignals_.emplace(row, metric, std::vector<double>{});
+    row->second.push_back(value);
+    if (const auto signals = signalsOf(experiment_.signal); signals.size() > 1)
+        add(std::string(signals[signal].name) + ":" + metric, value);
+}
+
+void Meter::addMap(std::size_t signal, const char* name, Image<float> map) {
+    if (!maps_)
+        return;
+    const std::string_view of = signalsOf(experiment_.signal)[signal].name;
+    maps_->emplace_back(signal == 0 ? name : std::string(name) + "_" + std::string(of),
+                        std::move(map));
+}
+
+void Meter::measureLambda(int frame, const Image<float>& lambda, std::size_t signal) {
     const std::size_t moment = momentAt(plan_.moments, frame);
-    const Truth& truth = truths_.of(moment);
+    const SignalTruth& truth = truths_.of(moment).signals[signal];
     const bool isFirst = frame == plan_.moments[moment].first;
     const Mask& strata = isFirst ? truth.litFirst : truth.litLater;
-    if (images.lambda.size().x != 0 && frame > 0 && countOf(strata) > 0) {
-        const Image<float> ideal = isFirst ? truth.idealLambda : Image<float>(images.lambda.size());
-        const Agreement agreement = compareWeights(images.lambda, ideal, strata);
-        const Detection detection = detect(images.lambda, ideal, strata);
-        add("lambda_mean", agreement.mean);
-        add("lambda_ideal_mean", agreement.idealMean);
-        add("lambda_bias", agreement.bias);
-        add("lambda_rmse", agreement.rmse);
-        if (detection.precision)
-            add("lambda_precision", *detection.precision);
-        if (detection.recall)
-            add("lambda_recall", *detection.recall);
-        if (detection.falseMean)
-            add("lambda_false", *detection.falseMean);
-        if (maps_) {
-            maps_->emplace_back("lambda", images.lambda);
-            maps_->emplace_back("lambda_ideal", ideal);
-        }
+    if (lambda.size().x == 0 || frame == 0 || countOf(strata) == 0)
+        return;
+    const Image<float> ideal = isFirst ? truth.idealLambda : Image<float>(lambda.size());
+    const Agreement agreement = compareWeights(lambda, ideal, strata);
+    const Detection detection = detect(lambda, ideal, strata);
+    addOfSignal(signal, "lambda_mean", agreement.mean);
+    addOfSignal(signal, "lambda_ideal_mean", agreement.idealMean);
+    addOfSignal(signal, "lambda_bias", agreement.bias);
+    addOfSignal(signal, "lambda_rmse", agreement.rmse);
+    if (detection.precision)
+        addOfSignal(signal, "lambda_precision", *detection.precision);
+    if (detection.recall)
+        addOfSignal(signal, "lambda_recall", *detection.recall);
+    if (detection.falseMean)
+        addOfSignal(signal, "lambda_false", *detection.falseMean);
+    addMap(signal, "lambda", lambda);
+    addMap(signal, "lambda_ideal", ideal);
+}
+
+void Meter::measureAlpha(int frame, const ControlImages& control, std::size_t signal) {
+    if (control.alpha.size().x == 0)
+        return;
+    const Truth& truth = truths_.at(frame);
+    const SignalTruth& own = truth.signals[signal];
+    const Image<float> ideal =
+        idealAlpha(control.history, own.luminance, own.variance, control.hasHistory);
+    const Mask counts = both(control.hasHistory, truth.foreground);
+    if (countOf(counts) > 0) {
+        const Agreement agreement = compareWeights(control.alpha, ideal, counts);
+        addOfSignal(signal, "alpha_mean", agreement.mean);
+        addOfSignal(signal, "alpha_ideal_mean", agreement.idealMean);
+        addOfSignal(signal, "alpha_bias", agreement.bias);
+        addOfSignal(signal, "alpha_rmse", agreement.rmse);
     }
-    if (images.alpha.size().x != 0) {
-        const Image<float> ideal =
-            idealAlpha(images.history, truth.luminance, truth.variance, images.hasHistory);
-        const Mask counts = both(images.hasHistory, truth.foreground);
-        if (countOf(counts) > 0) {
-            const Agreement agreement = compareWeights(images.alpha, ideal, counts);
-            add("alpha_mean", agreement.mean);
-            add("alpha_ideal_mean", agreement.idealMean);
-            add("alpha_bias", agreement.bias);
-            add("alpha_rmse", agreement.rmse);
-        }
-        if (maps_) {
-            maps_->emplace_back("alpha", images.alpha);
-            maps_->emplace_back("alpha_ideal", within(ideal, truth.foreground));
-        }
-    }
+    addMap(signal, "alpha", control.alpha);
+    addMap(signal, "alpha_ideal", within(ideal, truth.foreground));
 }
 
 } // namespace afterglow

@@ -8,23 +8,26 @@
 
 namespace afterglow {
 
-/// What a filter made of one frame.
-struct FrameImages {
-    Image<glm::vec4> lit; ///< filtered signal times albedo
-    Image<glm::u8vec4> display;
-    // Empty where the filter has none:
+/// How a filter blended one signal. Empty where it has none:
+struct ControlImages {
     Image<float> lambda;  ///< per stratum
     Image<float> alpha;   ///< alpha' per pixel
     Image<float> history; ///< luminance of the history that was fetched
     Mask hasHistory{};
 };
+
+/// What a filter made of one frame.
+struct FrameImages {
+    Image<glm::vec4> lit; ///< sum of filtered signals times albedo
+    Image<glm::u8vec4> display;
+    std::vector<ControlImages> control; ///< by signal; empty if it was not asked for
+};
 /// Of the last frame that was rendered, by the filter with this state; what is for the oracles only
 /// if `withControl`.
-FrameImages readFrame(const Renderer& renderer, const Settings& settings, bool withControl,
-                      std::size_t state = 0);
+FrameImages readFrame(const Renderer& renderer, bool withControl, std::size_t state = 0);
 
 /// Images in [0, 1] that explain a frame: "error" (FLIP), "lambda", "lambda_ideal", "alpha",
-/// "alpha_ideal", as far as they are there.
+/// "alpha_ideal", as far as they are there; of a second signal "lambda_ao" and so on.
 using FrameMaps = std::vector<std::pair<std::string, Image<float>>>;
 
 /// Takes the measures of one variant, frame by frame.
@@ -45,9 +48,13 @@ private:
     void measureChange(int frame, const FrameImages& images);
     void measureTrail(int frame, const FrameImages& images);
     void measureControl(int frame, const FrameImages& images);
+    void measureLambda(int frame, const Image<float>& lambda, std::size_t signal);
+    void measureAlpha(int frame, const ControlImages& control, std::size_t signal);
+    void addOfSignal(std::size_t signal, const char* metric, double value);
+    void addMap(std::size_t signal, const char* name, Image<float> map);
     void keep(int frame, const FrameImages& images);
     const PictureChange* changeTo(std::size_t moment);
-    void add(const char* metric, double value) { rows_.emplace_back(metric, value); }
+    void add(std::string metric, double value) { rows_.emplace_back(std::move(metric), value); }
 
     const Experiment& experiment_;
     const RunPlan& plan_;
@@ -59,7 +66,8 @@ private:
     Image<glm::vec4> before_; ///< the frame before
     int beforeFrame_ = -1;
     Flicker flicker_;
-    std::vector<std::pair<const char*, double>> rows_;
+    std::vector<std::pair<std::string, double>> rows_;
+    std::vector<std::pair<std::string, std::vector<double>>> ofSignals_; ///< this frame's, by name
     FrameMaps* maps_ = nullptr;
 };
 

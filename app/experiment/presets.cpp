@@ -32,14 +32,10 @@ std::size_t characters(std::string_view text) {
     return std::size_t(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-bool belongsToFilter(const Field& field) {
-    return field.group != "lighting" && field.group != "display";
-}
-
 /// A field's value as setField() takes it: the shortest that is this very number.
 std::string valueText(const Settings& settings, const Field& field) {
     Settings copy = settings;
-    const Field::Ref ref = field.ref(copy);
+    const Field::Ref ref = field.in(copy);
     std::array<char, 40> digits{};
     char* const last = digits.data() + digits.size();
     if (const float* const* number = std::get_if<float*>(&ref))
@@ -98,7 +94,7 @@ Preset parsePreset(std::string_view text, std::string_view source) {
     preset.variant = {.name = preset.name,
                       .filter = allFilters()[json.at("filter").choice(filterNames())]};
     for (const auto& [key, value] : json.at("settings").members()) {
-        if (const Field* field = fieldNamed(key); field && !belongsToFilter(*field))
+        if (const Field* field = fieldNamed(key); field && field->isFrameWide())
             value.refuse("belongs to the whole frame, not to a filter");
         preset.variant.changes.emplace_back(key, value.setting());
     }
@@ -171,7 +167,7 @@ std::vector<SettingDifference> differencesOf(const Settings& a, const Settings& 
         differences.push_back(
             {"Filter", "filter", std::string(nameOf(a.filter)), std::string(nameOf(b.filter))});
     for (const Field& field : fields()) {
-        if (!belongsToFilter(field))
+        if (field.isFrameWide())
             continue;
         const std::string valueA = valueText(a, field), valueB = valueText(b, field);
         if (valueA != valueB)

@@ -70,7 +70,10 @@ double residualOf(double distance, int samples) {
 constexpr std::size_t kKeptBytes = std::size_t(256) << 20;
 
 std::size_t bytesOf(const Reference& reference) {
-    return reference.signal.pixels().size_bytes();
+    std::size_t sum = 0;
+    for (const Image<glm::vec4>& signal : reference.signals)
+        sum += signal.pixels().size_bytes();
+    return sum;
 }
 
 } // namespace
@@ -81,7 +84,7 @@ void SamplePortions::took(int samples, double milliseconds) {
 }
 
 Mask foregroundOf(const Renderer& renderer) {
-    const auto guides = renderer.targets().guides.current().read<glm::vec4>();
+    const auto guides = renderer.targets().surfaces.guides.read<glm::vec4>();
     Mask mask(guides.size());
     for (std::size_t i = 0; i < guides.pixels().size(); ++i)
         mask.pixels()[i] = guides.pixels()[i].w > 0.0f;
@@ -89,11 +92,18 @@ Mask foregroundOf(const Renderer& renderer) {
 }
 
 Image<glm::vec4> litRadiance(const Renderer& renderer, std::size_t state) {
-    auto lit = renderer.filteredSignal(state).read<glm::vec4>();
-    const auto albedo = renderer.targets().albedo.read<glm::vec4>();
-    for (std::size_t i = 0; i < lit.pixels().size(); ++i)
-        lit.pixels()[i] =
-            glm::vec4(glm::vec3(lit.pixels()[i]) * glm::vec3(albedo.pixels()[i]), 0.0f);
+    Image<glm::vec4> lit;
+    for (std::size_t signal = 0; signal < renderer.signals().size(); ++signal) {
+        auto part = renderer.filteredSignal(state, signal).read<glm::vec4>();
+        const auto albedo = renderer.demodulation(signal).read<glm::vec4>();
+        for (std::size_t i = 0; i < part.pixels().size(); ++i) {
+            glm::vec4& pixel = part.pixels()[i];
+            pixel = glm::vec4(glm::vec3(pixel) * glm::vec3(albedo.pixels()[i]), 0.0f);
+            if (signal > 0)
+                pixel += lit.pixels()[i];
+        }
+        lit = std::move(part);
+    }
     return lit;
 }
 
@@ -118,7 +128,8 @@ Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput&
     glFinish();
     reference.milliseconds = millisecondsSince(start);
     reference.rays = sampling.rays();
-    reference.signal = renderer.filteredSignal().read<glm::vec4>();
+    for (std::size_t signal = 0; signal < renderer.signals().size(); ++signal)
+        reference.signals.push_back(renderer.filteredSignal(0, signal).read<glm::vec4>());
     const Mask foreground = foregroundOf(renderer);
     if (samples > 1 && countOf(foreground) > 0)
         reference.residual = residualOf(rmse(half, litRadiance(renderer), &foreground), samples);
@@ -147,7 +158,7 @@ Reference ReferenceStore::get(Renderer& renderer, const FrameInput& seen, const 
     const std::string key = referenceKey(request, maker_);
     if (std::optional<Reference> known = recall(key)) {
         renderer.beginReference(seen, settings);
-        renderer.showReference(known->signal, settings);
+        renderer.showReference(known->signals, settings);
         if (advanced)
             advanced(samples);
         return *std::move(known);

@@ -12,7 +12,7 @@ namespace afterglow {
 /// The pixels of the last frame or reference that show a surface.
 Mask foregroundOf(const Renderer& renderer);
 
-/// The light that surfaces reflect towards the viewer: the filtered signal times albedo, linear;
+/// The light that surfaces reflect towards the viewer: the filtered signals times albedo, linear;
 /// alpha is 0. Without emission, which no filter touches: a light that is seen directly is so much
 /// brighter than all it shines on that its going out would be all there is to measure.
 Image<glm::vec4> litRadiance(const Renderer& renderer, std::size_t state = 0);

@@ -25,7 +25,7 @@ namespace {
 
 /// Rises with every change to C++ code that changes what a reference is: the scene on the GPU, the
 /// order of the passes. Changes of shaders are seen by themselves.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 // The folders of all shaders that a reference passes through, from triangles to the mean.
 constexpr std::array<std::string_view, 2> kShaderFolders{"lighting/", "scene/"};
@@ -95,13 +95,19 @@ void addCamera(Hash& hash, const Camera& camera) {
 /// Of all that an entry gives back.
 std::string checksumOf(const Reference& reference) {
     Hash hash;
-    hash.add(reference.signal.size());
-    hash.addList(reference.signal.pixels());
+    for (const Image<glm::vec4>& signal : reference.signals) {
+        hash.add(signal.size());
+        hash.addList(signal.pixels());
+    }
     hash.add(reference.residual);
     hash.add(reference.rays);
     hash.add(reference.milliseconds);
     hash.add(reference.samples);
     return hash.hex();
+}
+
+std::string pictureName(const std::string& key, std::size_t signal) {
+    return key + (signal == 0 ? "" : "-" + std::to_string(signal)) + ".exr";
 }
 
 Json listOf(const glm::vec3& v) {
@@ -183,8 +189,11 @@ std::optional<Reference> ReferenceCache::find(const std::string& key) const {
         reference.milliseconds = root.at("ms").number(0.0, kMost);
         reference.samples = int(root.at("samples").wholeNumber(1, 1 << 30));
         reference.cached = true;
-        const fs::path exr = folder_ / (key + ".exr");
-        reference.signal = readExr(exr, {"R", "G", "B", "A"});
+        const fs::path exr = folder_ / pictureName(key, 0);
+        const auto signals = std::size_t(root.at("signals").wholeNumber(1, kMaxSignals));
+        for (std::size_t i = 0; i < signals; ++i)
+            reference.signals.push_back(
+                readExr(folder_ / pictureName(key, i), {"R", "G", "B", "A"}));
         if (root.at("key").text() != key || root.at("checksum").text() != checksumOf(reference))
             throw InputError(exr.string() + ": is not the picture that " +
                              json.filename().string() + " describes");
@@ -197,9 +206,11 @@ std::optional<Reference> ReferenceCache::find(const std::string& key) const {
 
 void ReferenceCache::store(const std::string& key, const Reference& reference,
                            const Json& description) const {
-    writeExr(folder_ / (key + ".exr"), reference.signal, {"R", "G", "B", "A"});
+    for (std::size_t i = 0; i < reference.signals.size(); ++i)
+        writeExr(folder_ / pictureName(key, i), reference.signals[i], {"R", "G", "B", "A"});
     Json json = {{"key", key}};
     json.update(description);
+    json["signals"] = reference.signals.size();
     json["samples"] = reference.samples;
     json["residual"] = reference.residual;
     json["rays"] = reference.rays;

@@ -7,18 +7,20 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace afterglow {
 
-/// The converged signal of one moment, and how far it can be trusted. docs/pipeline.md,
+/// The converged signals of one moment, and how far it can be trusted. docs/pipeline.md,
 /// "References".
 struct Reference {
-    Image<glm::vec4> signal; ///< rgb: demodulated signal; a: variance of one sample's luminance
-    /// The RMSE that the signal times albedo still has against the limit, over red, green and blue
-    /// of the foreground: from the difference between the mean of the first half of the samples and
-    /// the mean of all. 0 for a single sample, which has no halves.
+    /// By signal; rgb: demodulated signal; a: variance of one sample's luminance
+    std::vector<Image<glm::vec4>> signals;
+    /// The RMSE that the sum of signals times albedo still has against the limit, over red, green
+    /// and blue of the foreground: from the difference between the mean of the first half of the
+    /// samples and the mean of all. 0 for a single sample, which has no halves.
     double residual = 0.0;
     std::uint64_t rays = 0;    ///< of converging it
     double milliseconds = 0.0; ///< likewise
@@ -53,9 +55,9 @@ std::string referenceKey(const ReferenceRequest& request, const ReferenceMaker& 
 /// The same for a person.
 nlohmann::ordered_json describe(const ReferenceRequest& request, const ReferenceMaker& maker);
 
-/// References in a folder: KEY.exr with the picture (R, G, B, A in 32-bit float) and KEY.json with
-/// what it is. The second is written last: without it there is no entry. Several processes may use
-/// one folder.
+/// References in a folder: KEY.exr with the picture (R, G, B, A in 32-bit float), KEY-1.exr with
+/// that of a second signal, and KEY.json with what it is. That is written last: without it there is
+/// no entry. Several processes may use one folder.
 class ReferenceCache {
 public:
     /// Creates the folder where it is missing. Error names it if that fails, or if it cannot be

@@ -9,7 +9,7 @@ namespace afterglow {
 namespace {
 
 bool isLit(const Moment& moment, Signal signal) {
-    return signal != Signal::Shadows || std::ranges::any_of(moment.lights, [](const auto& light) {
+    return seesSurroundings(signal) || std::ranges::any_of(moment.lights, [](const auto& light) {
                return light.scale() != glm::vec3(0.0f);
            });
 }

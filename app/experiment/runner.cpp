@@ -156,11 +156,11 @@ void Run::runVariant(const Variant& variant) {
             table.add(variant.name, frame, "gradient_samples",
                       clock.stats().back().gradientSamples);
             table.add(variant.name, frame, "invalid_values", clock.stats().back().invalidValues);
-            measure(meter, frame, variant, readFrame(renderer_, settings, true), table, out);
+            measure(meter, frame, variant, readFrame(renderer_, true), table, out);
         } else {
             renderer_.render(truths_.inputAt(frame), settings);
             if (frame == own_.first - 1 || plan_.settled.contains(frame))
-                meter.skip(frame, readFrame(renderer_, settings, false));
+                meter.skip(frame, readFrame(renderer_, false));
         }
         sayProgress(own_.contains(frame) ? kFrameWork : kFrameWork / 3.0,
                     variant.name + ", frame " + std::to_string(frame + 1) + " of " +

@@ -58,6 +58,7 @@ void Truths::make(Renderer& renderer, ReferenceStore& store, FrameRange range,
                   const std::function<void(int)>& advanced) {
     Settings settings;
     settings.lighting.signal = int(experiment_.signal);
+    const float floor = settings.denoiser.gradient.deltaFloor;
     for (const std::size_t i : neededFor(range)) {
         const Moment& moment = plan_.moments[i];
         if (!truths_[i]) {
@@ -65,37 +66,44 @@ void Truths::make(Renderer& renderer, ReferenceStore& store, FrameRange range,
             const Reference reference =
                 store.get(renderer, input, input, settings, experiment_.referenceSamples, advanced);
             Truth truth;
-            truth.display = renderer.showReference(reference.signal, settings).read<glm::u8vec4>();
+            truth.display = renderer.showReference(reference.signals, settings).read<glm::u8vec4>();
             truth.foreground = foregroundOf(renderer);
             truth.lit = litRadiance(renderer);
-            truth.luminance = luminanceOf(reference.signal);
-            truth.variance = channelOf(reference.signal, 3);
             truth.residual = reference.residual;
             truth.milliseconds = reference.milliseconds;
-            truth.litLater = litStrata(truth.luminance, truth.luminance, truth.foreground,
-                                       settings.denoiser.gradient.deltaFloor);
+            for (const Image<glm::vec4>& signal : reference.signals) {
+                SignalTruth& own = truth.signals.emplace_back();
+                own.luminance = luminanceOf(signal);
+                own.variance = channelOf(signal, 3);
+                own.litLater = litStrata(own.luminance, own.luminance, truth.foreground, floor);
+            }
             truths_[i] = std::move(truth);
         }
         Truth& truth = *truths_[i];
-        if (truth.idealLambda.size().x != 0 || !range.contains(moment.first))
+        if (truth.knowsChange || !range.contains(moment.first))
             continue;
+        truth.knowsChange = true;
         // What these surfaces reflected one frame ago. Light and shadow on them do not depend on
         // the camera, so if it alone has moved they reflected just the same.
-        const bool changed = i > 0 && (moment.lightsChanged || moment.worldMoved);
-        Image<float> before;
-        if (changed) {
+        std::vector<Image<float>> before;
+        if (i > 0 && (moment.lightsChanged || moment.worldMoved)) {
             FrameInput world = referenceInput(plan_.moments[i - 1]);
             world.seconds = experiment_.seconds(moment.first - 1);
-            before = luminanceOf(store
-                                     .get(renderer, referenceInput(moment), world, settings,
-                                          experiment_.referenceSamples, advanced)
-                                     .signal);
+            for (const Image<glm::vec4>& signal :
+                 store
+                     .get(renderer, referenceInput(moment), world, settings,
+                          experiment_.referenceSamples, advanced)
+                     .signals)
+                before.push_back(luminanceOf(signal));
+        } else {
+            for (const SignalTruth& signal : truth.signals)
+                before.push_back(signal.luminance);
         }
-        if (!changed)
-            before = truth.luminance;
-        const float floor = settings.denoiser.gradient.deltaFloor;
-        truth.idealLambda = idealLambda(truth.luminance, before, truth.foreground, floor);
-        truth.litFirst = litStrata(truth.luminance, before, truth.foreground, floor);
+        for (std::size_t s = 0; s < truth.signals.size(); ++s) {
+            SignalTruth& own = truth.signals[s];
+            own.idealLambda = idealLambda(own.luminance, before[s], truth.foreground, floor);
+            own.litFirst = litStrata(own.luminance, before[s], truth.foreground, floor);
+        }
     }
 }
 

@@ -6,19 +6,25 @@
 
 namespace afterglow {
 
-/// What the frames of one moment are compared with.
-struct Truth {
-    Image<glm::vec4> lit; ///< converged signal times albedo, linear rgb
-    Image<glm::u8vec4> display;
-    Mask foreground;        ///< pixels that show a surface
+/// What is true of one signal in one moment.
+struct SignalTruth {
     Image<float> luminance; ///< of the converged signal, as the filter sees it
     Image<float> variance;  ///< of the luminance of one sample
     // Per stratum, where lambda means something, and what it should be: in the moment's first frame
     // and in those after it, in which nothing changes.
     Mask litFirst, litLater;
-    Image<float> idealLambda;  ///< of the first; the later ones have 0
-    double residual = 0.0;     ///< the RMSE that `lit` still has itself
-    double milliseconds = 0.0; ///< of tracing, when it was traced
+    Image<float> idealLambda; ///< of the first; the later ones have 0
+};
+
+/// What the frames of one moment are compared with.
+struct Truth {
+    Image<glm::vec4> lit; ///< sum of converged signals times albedo, linear rgb
+    Image<glm::u8vec4> display;
+    Mask foreground;                  ///< pixels that show a surface
+    std::vector<SignalTruth> signals; ///< by signal
+    bool knowsChange = false;         ///< litFirst and idealLambda of them are there
+    double residual = 0.0;            ///< the RMSE that `lit` still has itself
+    double milliseconds = 0.0;        ///< of tracing, when it was traced
 };
 
 /// The truths of a run. References end the histories of the renderer, so all that will be needed

@@ -13,7 +13,7 @@ namespace {
 
 bool isWhole(const Field& field) {
     Settings any;
-    return std::holds_alternative<int*>(field.ref(any));
+    return std::holds_alternative<int*>(field.in(any));
 }
 
 std::string formatOf(const Field& field) {
@@ -37,7 +37,7 @@ std::string helpOf(const Field& field) {
                 (field.unit.empty() ? "" : " " + std::string(field.unit)) + ". Ctrl-click to type.";
     help += "\nDefault " + valueText(field, fieldValue(Settings{}, field)) + " (" +
             std::string(field.source) + ").";
-    if (isFrameWide(field))
+    if (field.isFrameWide())
         help += "\nFor all panes.";
     help += "\nOn the command line: --set " + std::string(field.key) + "=";
     return help;
@@ -83,7 +83,7 @@ bool slider(const char* id, double& value, SliderRange range, const char* format
 }
 
 void fieldRow(Panes& panes, const Field& field) {
-    const Settings& settings = panes.all[panes.active].settings;
+    const Settings settings = settingsOf(panes, panes.active);
     ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
     // The heading of the group says what a label repeats in brackets.
     std::string_view label = field.label;

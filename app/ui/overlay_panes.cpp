@@ -4,7 +4,6 @@
 #include "app/ui/panels.h"
 #include "app/ui/theme.h"
 #include "app/ui/widgets.h"
-#include "renderer/pipeline/denoise_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +14,9 @@ namespace {
 
 // How gradient samples change what this pane sees; empty where they do not.
 std::string_view placementNote(const Panes& panes, std::size_t pane) {
-    const Settings& settings = panes.all[pane].settings;
-    if (SamplePlacement(settings.lighting.gradientSamples) == SamplePlacement::Merged)
+    if (SamplePlacement(panes.frame.lighting.gradientSamples) == SamplePlacement::Merged)
         return carriesSamples(panes) ? "merged samples" : "";
-    return carriesSamples(settings) ? "extra samples" : "";
+    return needsOf(panes.all[pane].settings).samples ? "extra samples" : "";
 }
 
 /// What a label says, from left to right, and a line below it.

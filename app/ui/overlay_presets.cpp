@@ -65,7 +65,7 @@ void presetList(const PanelContext& panel, std::span<const PresetStore::Entry> e
 void differences(const PanelContext& panel, const Preset& preset, float height) {
     const Panes& panes = panel.state.panes;
     const Pane& active = panes.all[panes.active];
-    const auto rows = differencesOf(active.settings, settingsOf(preset));
+    const auto rows = differencesOf(Settings{{}, active.settings}, settingsOf(preset));
     const std::string pane = "pane " + letter(panes.active);
     if (rows.empty())
         return dimWrapped("No difference: " + pane + " is set to exactly this.");

@@ -215,7 +215,7 @@ void gradientSamples(Panes& panes) {
     const Field& field = fieldByKey("gradientSamples");
     rowLabel("Gradient samples");
     constexpr const char* kNames[] = {"Merged", "Extra"};
-    const int now = int(fieldValue(panes.all[panes.active].settings, field));
+    const int now = int(fieldValue(settingsOf(panes, panes.active), field));
     if (const auto chosen = segments("placement", kNames, now))
         setField(panes, field, double(*chosen));
     tooltip(std::string(field.meaning) + "\nFor all panes.");

@@ -71,8 +71,9 @@ void panelParameters(const PanelContext& panel) {
     if (!section(panel.fonts, "Parameters", false, note, color::kPanes[panes.active]))
         return;
     copyRow(state);
+    const Settings settings = settingsOf(panes, panes.active);
     for (const std::string_view group : groups()) {
-        const int changed = changedIn(active.settings, group);
+        const int changed = changedIn(settings, group);
         const std::string title = capitalized(group) +
                                   (changed ? ", " + std::to_string(changed) + " changed" : "") +
                                   "###" + std::string(group);

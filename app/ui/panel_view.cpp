@@ -19,10 +19,9 @@ struct ImageGroup {
     std::string_view first;
     const char* title;
 };
-constexpr ImageGroup kGroups[] = {{"color", "Light"},
-                                  {"albedo", "Surfaces"},
-                                  {"moments", "History"},
-                                  {"lambda", "Change of light"}};
+constexpr ImageGroup kGroups[] = {
+    {"color", "Light"},     {"albedo", "Surfaces"}, {"samples", "Gradient samples"},
+    {"filtered", "Filter"}, {"moments", "History"}, {"lambda", "Change of light"}};
 
 std::string shownName(const PanelContext& panel) {
     const Shown& shown = panel.state.shown;
@@ -53,7 +52,7 @@ void chooseImage(const PanelContext& panel) {
             for (const ImageGroup& group : kGroups)
                 if (group.first == aov.name)
                     groupTitle(panel.fonts, group.title);
-            const bool made = isMadeBy(aov, state.settings().filter, state.settings().denoiser);
+            const bool made = isMadeBy(aov, state.settings());
             ImGui::PushStyleColor(ImGuiCol_Text, made ? color::kText : color::kFaint);
             const Shown wanted{Shown::Kind::Aov, i};
             if (ImGui::Selectable(std::string(aov.name).c_str(), state.shown == wanted))
@@ -65,6 +64,24 @@ void chooseImage(const PanelContext& panel) {
         ImGui::EndCombo();
     }
     tooltip("V and Shift V go through them, B returns to the picture. Names as in render --aov.");
+}
+
+// Where the light is filtered in parts: the part whose images are shown.
+void chooseSignal(ViewState& state) {
+    const auto signals = signalsOf(state);
+    if (signals.size() < 2)
+        return;
+    std::vector<std::string> names;
+    std::vector<const char*> texts;
+    for (const SignalInfo& signal : signals)
+        names.emplace_back(signal.name);
+    for (const std::string& name : names)
+        texts.push_back(name.c_str());
+    rowLabel("Signal");
+    if (const auto chosen = segments("signal", texts, int(shownSignal(state))))
+        state.signal = std::size_t(*chosen);
+    tooltip("Whose images are shown, and whose lambda, alpha and history the probes and the "
+            "inspector read. The picture is of all.");
 }
 
 // How the image that is shown is shown; null for the picture and for what a pass made.
@@ -213,6 +230,7 @@ void panelView(const PanelContext& panel) {
                  color::kAccent))
         return;
     chooseImage(panel);
+    chooseSignal(panel.state);
     if (ImageDisplay* const display = shownDisplay(state)) {
         chooseMap(*display);
         chooseRange(state, *display);

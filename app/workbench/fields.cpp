@@ -17,17 +17,17 @@ const Field& fieldByKey(std::string_view key) {
 
 double fieldValue(const Settings& settings, const Field& field) {
     Settings copy = settings; // the table gives references to what may be changed
-    return std::visit([](auto* value) { return double(*value); }, field.ref(copy));
+    return std::visit([](auto* value) { return double(*value); }, field.in(copy));
 }
 
-void setFieldValue(Settings& settings, const Field& field, double value) {
+void setFieldValue(FrameSettings& frame, FilterSettings& filter, const Field& field, double value) {
     const double allowed = std::clamp(value, field.min, field.max);
     std::visit(
         [allowed](auto* member) {
             using Member = std::remove_pointer_t<decltype(member)>;
             *member = std::is_integral_v<Member> ? Member(std::lround(allowed)) : Member(allowed);
         },
-        field.ref(settings));
+        field.in(frame, filter));
 }
 
 bool isDefault(const Settings& settings, const Field& field) {
@@ -35,7 +35,7 @@ bool isDefault(const Settings& settings, const Field& field) {
 }
 
 void resetField(Settings& settings, const Field& field) {
-    setFieldValue(settings, field, fieldValue(Settings{}, field));
+    setFieldValue(settings, settings, field, fieldValue(Settings{}, field));
 }
 
 std::string valueText(const Field& field, double value) {

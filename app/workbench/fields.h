@@ -12,7 +12,8 @@ namespace afterglow {
 /// std::logic_error for a key that is not in the table.
 const Field& fieldByKey(std::string_view key);
 double fieldValue(const Settings& settings, const Field& field);
-void setFieldValue(Settings& settings, const Field& field, double value); ///< clamped to its range
+/// Clamped to its range.
+void setFieldValue(FrameSettings& frame, FilterSettings& filter, const Field& field, double value);
 bool isDefault(const Settings& settings, const Field& field);
 void resetField(Settings& settings, const Field& field);
 

@@ -67,17 +67,16 @@ public:
     }
 
     InspectedGroup rawSignal() const {
-        return {
-            "raw signal",
-            {fromImage("raw", "raw", numbersOf(glm::vec3(f_.raw))),
-             line("luminance", {f_.raw.a}, "of the raw signal, radiance"),
-             words("seed",
-                   place(f_.seed.tile) + " of frame " + std::to_string(f_.seed.frame) +
-                       (f_.plan.carrySamples && !f_.hasExtraSamples() && f_.isSample() ? ", again"
-                                                                                       : ""),
-                   "from where in the tile of blue noise, and from which frame, the pixel's "
-                   "random numbers are",
-                   {double(f_.seed.tile.x), double(f_.seed.tile.y), double(f_.seed.frame)})}};
+        return {"raw signal",
+                {fromImage("raw", "raw", numbersOf(glm::vec3(f_.raw))),
+                 line("luminance", {f_.raw.a}, "of the raw signal, radiance"),
+                 words("seed",
+                       place(f_.seed.tile) + " of frame " + std::to_string(f_.seed.frame) +
+                           (f_.plan.carrySamples && !f_.hasExtraSamples && f_.isSample() ? ", again"
+                                                                                         : ""),
+                       "from where in the tile of blue noise, and from which frame, the pixel's "
+                       "random numbers are",
+                       {double(f_.seed.tile.x), double(f_.seed.tile.y), double(f_.seed.frame)})}};
     }
 
     InspectedGroup gradientSample() const {
@@ -85,7 +84,7 @@ public:
         auto& v = group.values;
         v.push_back(words("stratum", place(f_.stratum),
                           "of 3x3 pixels, counted from the upper left", numbersOf(f_.stratum)));
-        v.push_back(words("shaded", f_.hasExtraSamples() ? "beside the picture" : "in the picture",
+        v.push_back(words("shaded", f_.hasExtraSamples ? "beside the picture" : "in the picture",
                           "whether gradient samples take the place of pixels"));
         if (f_.sample)
             addSample(v, *f_.sample);
@@ -125,7 +124,7 @@ public:
     InspectedGroup filter() const {
         InspectedGroup group{"filter", {}};
         auto& v = group.values;
-        if (f_.plan.feedbackIteration > 0)
+        if (f_.plan.accumulate)
             v.push_back(
                 fromImage("accumulated", "accumulated", numbersOf(glm::vec3(f_.accumulated))));
         if (f_.plan.atrousIterations > 0)
@@ -183,11 +182,16 @@ private:
 
 } // namespace
 
-Inspection inspect(const Renderer& renderer, std::size_t state, const Settings& settings,
-                   glm::ivec2 pixel) {
-    const PixelFacts facts = pixelFacts(renderer, state, settings, pixel);
+Inspection inspect(const Renderer& renderer, std::size_t state, const FrameSettings& settings,
+                   glm::ivec2 pixel, std::size_t signal) {
+    const PixelFacts facts = pixelFacts(renderer, state, settings, pixel, signal);
     const Lines lines(facts, renderer.scene());
-    Inspection inspection{facts.pixel, facts.stratum, state, {}, storyOf(facts)};
+    Inspection inspection{.pixel = facts.pixel,
+                          .stratum = facts.stratum,
+                          .state = state,
+                          .signal = signal,
+                          .groups = {},
+                          .story = storyOf(facts)};
     inspection.groups = {lines.surface(), lines.rawSignal()};
     if (facts.plan.carrySamples)
         inspection.groups.push_back(lines.gradientSample());

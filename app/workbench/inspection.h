@@ -25,15 +25,15 @@ struct InspectedGroup {
 /// does not make is left out.
 struct Inspection {
     glm::ivec2 pixel{0}, stratum{0};
-    std::size_t state = 0;
+    std::size_t state = 0, signal = 0;
     std::vector<InspectedGroup> groups;
     std::vector<std::string> story; ///< sentences: where the sample came from, why there is none
 };
 
-/// Reads single pixels back, which waits for the GPU. `settings` are those that the state ran with.
-/// The pixel is inside the picture and the state ran in the last frame; else std::logic_error.
-Inspection inspect(const Renderer& renderer, std::size_t state, const Settings& settings,
-                   glm::ivec2 pixel);
+/// Reads single pixels back, which waits for the GPU. `settings` are those of the last frame. The
+/// pixel is inside the picture and the state ran in the last frame; else std::logic_error.
+Inspection inspect(const Renderer& renderer, std::size_t state, const FrameSettings& settings,
+                   glm::ivec2 pixel, std::size_t signal = 0);
 
 /// "another instance was seen there": gpu::kHistory... codes.
 std::string_view historyReason(int code);

@@ -70,7 +70,7 @@ private:
         say(text + ".");
         if (sample.now)
             tellChange(sample.before, *sample.now);
-        if (f_.hasExtraSamples())
+        if (f_.hasExtraSamples)
             say("It was shaded beside the picture, by a ray of its own.");
         else if (f_.isSample())
             say("This pixel is that sample: it was shaded again with the random numbers that it "
@@ -101,13 +101,15 @@ private:
             say("It saw " + fourDigits(now) + " both times: nothing changed.");
         else
             say("It saw " + fourDigits(now) + " where it had seen " + fourDigits(before) +
-                ": delta is " + fourDigits(f_.plan.gradientAbsolute ? std::abs(delta) : delta) +
+                ": delta is " +
+                fourDigits(f_.plan.gradient.magnitude == gpu::kGradientAbsolute ? std::abs(delta)
+                                                                                : delta) +
                 ", " + share(delta, greater) + " of Delta.");
     }
 
     void tellGradient() {
         const StratumGradient& g = *f_.gradient;
-        const gpu::GradientParams& params = f_.settings.denoiser.gradient;
+        const gpu::GradientParams& params = f_.plan.gradient;
         const std::string subject = "The lambda of this stratum is ";
         if (params.forceLambda >= 0.0f) {
             say(subject + "set to " + fourDigits(g.lambda) + " by hand, as everywhere.");
@@ -157,7 +159,7 @@ private:
     }
 
     void tellLambda() {
-        const int fetch = f_.settings.denoiser.temporal.lambdaFetch;
+        const int fetch = f_.plan.temporal.lambdaFetch;
         if (f_.plan.useLambda && fetch == gpu::kLambdaMax)
             say("lambda here is " + fourDigits(f_.lambda) +
                 ", the largest of the 3x3 strata around" +
@@ -182,17 +184,16 @@ private:
         const float outside = std::max(range.x - l, l - range.y);
         say("The history's luminance, " + fourDigits(l) + ", is " + fourDigits(outside) +
             " outside of " + between + ": lambda = min(1, " +
-            fourDigits(f_.settings.denoiser.temporal.percentileSlope) + " * " +
-            fourDigits(outside) + " / " + fourDigits(range.y - range.x) +
-            ") = " + fourDigits(f_.lambda) + ".");
+            fourDigits(f_.plan.temporal.percentileSlope) + " * " + fourDigits(outside) + " / " +
+            fourDigits(range.y - range.x) + ") = " + fourDigits(f_.lambda) + ".");
     }
 
     void tellAlpha() {
         tellLambda();
         const bool hasLambda = f_.plan.useLambda || f_.plan.usePercentiles;
-        const float least = f_.settings.denoiser.temporal.alpha;
+        const float least = f_.plan.temporal.alpha;
         float length = f_.fetched->length, lambda = hasLambda ? f_.lambda : 0.0f;
-        if (f_.plan.cutHistory) {
+        if (f_.plan.cutsHistory()) {
             const float confidence = (1.0f - lambda) * (1.0f - lambda);
             const float cut =
                 length * (confidence + (1.0f - confidence) / (length + 1.0f)); // [NRD]
@@ -203,13 +204,13 @@ private:
         }
         const std::string blend =
             "max(" + fourDigits(least) + ", 1 / (" + fourDigits(length) + " + 1))";
-        if (hasLambda && !f_.plan.cutHistory)
+        if (hasLambda && !f_.plan.cutsHistory())
             say("alpha = (1 - lambda) max(least, 1 / (N + 1)) + lambda = (1 - " +
                 fourDigits(lambda) + ") " + blend + " + " + fourDigits(lambda) + " = " +
                 fourDigits(f_.alpha) + ".");
         else
             say("alpha = max(least, 1 / (N + 1)) = " + blend + " = " + fourDigits(f_.alpha) + ".");
-        if (f_.plan.clampHistory)
+        if (f_.plan.clampsHistory())
             tellClamp();
     }
 
@@ -229,11 +230,11 @@ private:
     }
 
     void tellLength() {
-        const float most = f_.settings.denoiser.temporal.maxHistory;
+        const float most = f_.plan.temporal.maxHistory;
         say("For the next frame the history is worth " + frames(f_.length) +
             (f_.length == most ? ", the most that is allowed." : "."));
-        if (f_.plan.atrousIterations > 0 && f_.length < f_.settings.denoiser.minHistory)
-            say("That is less than " + fourDigits(f_.settings.denoiser.minHistory) +
+        if (f_.plan.atrousIterations > 0 && f_.length < f_.plan.variance.minHistory)
+            say("That is less than " + fourDigits(f_.plan.variance.minHistory) +
                 ", so the variance was estimated from the pixels around.");
     }
 

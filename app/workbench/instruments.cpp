@@ -5,7 +5,7 @@
 namespace afterglow {
 namespace {
 
-ProbeSample sampleOf(const ProbeReading& reading, const DenoisePlan& plan) {
+ProbeSample sampleOf(const ProbeReading& reading, const SvgfPlan& plan) {
     ProbeSample sample{.pixels = reading.pixels,
                        .lit = reading.lit,
                        .rawLit = reading.rawLit,
@@ -23,6 +23,12 @@ ProbeSample sampleOf(const ProbeReading& reading, const DenoisePlan& plan) {
     return sample;
 }
 
+/// Lambda, alpha, history length and reason; any image of that size where the filter has none.
+const GpuTexture& controlOf(const Renderer& renderer, std::size_t pane, std::size_t signal) {
+    const GpuTexture* const control = renderer.filterImage("alpha", pane, signal).texture;
+    return control ? *control : renderer.targets().surfaces.guides;
+}
+
 } // namespace
 
 ProbeFrame Instruments::read(Renderer& renderer, const ViewState& state, std::uint32_t frame,
@@ -35,6 +41,7 @@ ProbeFrame Instruments::read(Renderer& renderer, const ViewState& state, std::ui
         result.panes[pane] = titleOf(state.panes.all[pane]);
     FrameContext context{renderer.timer()};
     const RenderTargets& t = renderer.targets();
+    const std::size_t signal = shownSignal(state);
     for (std::size_t i = 0; i < kProbes; ++i) {
         if (!state.probes[i])
             continue;
@@ -42,13 +49,12 @@ ProbeFrame Instruments::read(Renderer& renderer, const ViewState& state, std::ui
             rescaled(state.probes[i]->probe, state.probes[i]->image, renderer.size());
         result.probes[i] = probe;
         for (const std::size_t pane : shown) {
-            const Settings& settings = state.panes.all[pane].settings;
             probe_.run(context,
-                       {renderer.filteredSignal(pane), t.raw.current(), t.albedo,
-                        t.guides.current(), t.filters[pane].control},
+                       {renderer.filteredSignal(pane, signal), t.signals[signal].raw.current(),
+                        renderer.demodulation(signal), t.surfaces.guides,
+                        controlOf(renderer, pane, signal)},
                        probe.min, probe.size);
-            result.samples[i][pane] =
-                sampleOf(probe_.read(), makePlan(settings.filter, settings.denoiser));
+            result.samples[i][pane] = sampleOf(probe_.read(), *renderer.ran(pane)->svgf);
         }
     }
     return result;
@@ -58,11 +64,10 @@ ReasonCounts Instruments::countReasons(Renderer& renderer, const ViewState& stat
                                        std::size_t pane) {
     const RenderTargets& t = renderer.targets();
     FrameContext context{renderer.timer()};
-    reasons_.run(context, {t.filters.at(pane).control, t.guides.current(),
+    reasons_.run(context, {controlOf(renderer, pane, shownSignal(state)), t.surfaces.guides,
                            carriesSamples(state.panes) ? &t.samples : nullptr});
     ReasonCounts counts = reasons_.read();
-    const Settings& settings = state.panes.all[pane].settings;
-    if (!makePlan(settings.filter, settings.denoiser).accumulate)
+    if (!renderer.ran(pane)->svgf->accumulate)
         counts.history = {};
     return counts;
 }

@@ -4,8 +4,6 @@
 #include "app/experiment/oracle.h"
 #include "app/experiment/reference.h"
 #include "renderer/image/color.h"
-#include "renderer/pipeline/denoise_plan.h"
-#include "shared/bindings.h"
 
 #include <algorithm>
 #include <chrono>
@@ -32,23 +30,15 @@ Image<float> difference(const Image<float>& a, const Image<float>& b, const Mask
 /// What a filter left of the frozen frame, and what has been made of it.
 struct FrozenFilter {
     FrameImages images;
-    bool accumulates = false;
     float deltaFloor = 0.0f;
     std::optional<double> rmse;
-    std::array<GpuTexture, kOracleImages> textures; ///< empty until they are asked for
+    /// By signal; empty until they are asked for.
+    std::array<std::array<GpuTexture, kOracleImages>, kMaxSignals> textures;
 };
 
-/// The uniform block of another renderer's frame, put back when this ends: between two of its
-/// frames nothing else may have been bound.
-class KeptFrameBlock {
-public:
-    KeptFrameBlock() { glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, gpu::kFrameBlock, &buffer_); }
-    KeptFrameBlock(const KeptFrameBlock&) = delete;
-    KeptFrameBlock& operator=(const KeptFrameBlock&) = delete;
-    ~KeptFrameBlock() { glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, GLuint(buffer_)); }
-
-private:
-    GLint buffer_ = 0;
+/// What has converged of one signal.
+struct FrozenSignal {
+    Image<float> now, before, variance;
 };
 
 } // namespace
@@ -60,13 +50,12 @@ struct OracleView::Impl {
     GlInfo gl;
 
     std::optional<Moment> moment;
-    Settings settings;
+    FrameSettings settings;
     int samples = 0;
     std::array<std::optional<FrozenFilter>, kFilterStates> filters;
 
     // While it converges.
     std::optional<Renderer> renderer;
-    GLint frameBlock = 0; ///< of `renderer`
     bool converged = false;
     bool changed = false; ///< so the light of the frame before is another reference
     bool atBefore = false;
@@ -75,7 +64,7 @@ struct OracleView::Impl {
 
     // Once it is there.
     Image<glm::vec4> lit;
-    Image<float> now, before, variance;
+    std::vector<FrozenSignal> signals;
     Mask foreground;
     GpuTexture picture;
 
@@ -94,9 +83,9 @@ struct OracleView::Impl {
     void addFor(double milliseconds);
     void finishOne();
     void keepNow();
-    bool has(OracleImage image, const FrozenFilter& filter) const;
-    Image<float> make(OracleImage image, const FrozenFilter& filter) const;
-    Image<float> idealAlphaOf(const FrozenFilter& filter) const;
+    bool has(OracleImage image, const ControlImages& control) const;
+    Image<float> make(OracleImage image, const FrozenFilter& filter, std::size_t signal) const;
+    Image<float> idealAlphaOf(const FrozenFilter& filter, std::size_t signal) const;
 };
 
 // Whether light or geometry of the frame before differ.
@@ -121,12 +110,10 @@ bool OracleView::Impl::hasChanged(const Scene& scene) const {
 void OracleView::Impl::start(const FrameInput& world) {
     done = 0;
     renderer->beginReference(inputOf(moment->now), world, settings);
-    glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, gpu::kFrameBlock, &frameBlock);
 }
 
 // Portions as large as the last ones say that there is time for.
 void OracleView::Impl::addFor(double milliseconds) {
-    glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, GLuint(frameBlock));
     const auto begin = Clock::now();
     double left = milliseconds;
     do {
@@ -142,9 +129,11 @@ void OracleView::Impl::addFor(double milliseconds) {
 }
 
 void OracleView::Impl::keepNow() {
-    const auto signal = renderer->filteredSignal().read<glm::vec4>();
-    now = luminanceOf(signal);
-    variance = channelOf(signal, 3);
+    signals.clear();
+    for (std::size_t i = 0; i < renderer->signals().size(); ++i) {
+        const auto signal = renderer->filteredSignal(0, i).read<glm::vec4>();
+        signals.push_back({luminanceOf(signal), {}, channelOf(signal, 3)});
+    }
     lit = litRadiance(*renderer);
     foreground = foregroundOf(*renderer);
     picture = renderer->targets().filters[0].composed.copy();
@@ -153,17 +142,17 @@ void OracleView::Impl::keepNow() {
 // The reference that was being traced has all its samples.
 void OracleView::Impl::finishOne() {
     renderer->finishReference();
-    if (atBefore) {
-        before = luminanceOf(renderer->filteredSignal().read<glm::vec4>());
-    } else {
+    if (!atBefore) {
         keepNow();
         if (changed) {
             atBefore = true;
             start(inputOf(*moment->before));
             return;
         }
-        before = now;
     }
+    for (std::size_t i = 0; i < signals.size(); ++i)
+        signals[i].before = atBefore ? luminanceOf(renderer->filteredSignal(0, i).read<glm::vec4>())
+                                     : signals[i].now;
     converged = true;
     renderer.reset(); // its images are many
 }
@@ -172,24 +161,25 @@ OracleView::OracleView(ShaderLibrary& shaders, const GlInfo& gl)
     : impl_(std::make_unique<Impl>(shaders, gl)) {}
 OracleView::~OracleView() = default;
 
-void OracleView::begin(const Renderer& watched, Moment moment, std::span<const FilterRun> runs,
+void OracleView::begin(const Renderer& watched, Moment moment, const FrameSettings& settings,
                        int samples) {
-    if (samples < 1 || runs.empty())
-        throw std::logic_error("an oracle needs a sample, and a filter that has run");
     end();
-    const KeptFrameBlock kept;
     Impl& self = *impl_;
-    for (const FilterRun& run : runs) {
-        const DenoiserSettings& denoiser = run.settings.denoiser;
-        self.filters.at(run.state) = {.images = readFrame(watched, run.settings, true, run.state),
-                                      .accumulates =
-                                          makePlan(run.settings.filter, denoiser).accumulate,
-                                      .deltaFloor = denoiser.gradient.deltaFloor,
-                                      .rmse = {},
-                                      .textures = {}};
+    bool any = false;
+    for (std::size_t state = 0; state < kFilterStates; ++state) {
+        const RanFilter* const ran = watched.ran(state);
+        if (!ran)
+            continue;
+        any = true;
+        self.filters[state] = {.images = readFrame(watched, true, state),
+                               .deltaFloor = ran->settings.denoiser.gradient.deltaFloor,
+                               .rmse = {},
+                               .textures = {}};
     }
+    if (samples < 1 || !any)
+        throw std::logic_error("an oracle needs a sample, and a filter that has run");
     self.moment = std::move(moment);
-    self.settings = runs.front().settings;
+    self.settings = settings;
     self.samples = samples;
     self.changed = self.hasChanged(watched.scene());
     self.renderer.emplace(self.shaders, self.gl);
@@ -202,7 +192,6 @@ bool OracleView::advance(double milliseconds) {
     Impl& self = *impl_;
     if (!self.moment || self.converged)
         return false;
-    const KeptFrameBlock kept;
     const auto start = Clock::now();
     do {
         self.addFor(milliseconds - millisecondsSince(start));
@@ -232,53 +221,60 @@ double OracleView::progress() const {
     return isDone() ? 1.0 : double(impl_->traced()) / impl_->total();
 }
 
-Image<float> OracleView::Impl::idealAlphaOf(const FrozenFilter& filter) const {
-    return within(idealAlpha(filter.images.history, now, variance, filter.images.hasHistory),
+Image<float> OracleView::Impl::idealAlphaOf(const FrozenFilter& filter, std::size_t signal) const {
+    const ControlImages& control = filter.images.control.at(signal);
+    const FrozenSignal& truth = signals.at(signal);
+    return within(idealAlpha(control.history, truth.now, truth.variance, control.hasHistory),
                   foreground);
 }
 
-bool OracleView::Impl::has(OracleImage image, const FrozenFilter& filter) const {
+bool OracleView::Impl::has(OracleImage image, const ControlImages& control) const {
     switch (image) {
     case OracleImage::Lambda:
-    case OracleImage::LambdaError: return filter.images.lambda.size().x != 0 && moment->before;
+    case OracleImage::LambdaError: return control.lambda.size().x != 0 && moment->before;
     case OracleImage::Alpha:
-    case OracleImage::AlphaError: return filter.accumulates;
+    case OracleImage::AlphaError: return control.alpha.size().x != 0;
     case OracleImage::Error:
     case OracleImage::Reference: break;
     }
     return true;
 }
 
-Image<float> OracleView::Impl::make(OracleImage image, const FrozenFilter& filter) const {
+Image<float> OracleView::Impl::make(OracleImage image, const FrozenFilter& filter,
+                                    std::size_t signal) const {
     const FrameImages& frozen = filter.images;
+    const ControlImages& control = frozen.control.at(signal);
+    const auto& [now, before, variance] = signals.at(signal);
     const float floor = filter.deltaFloor;
     switch (image) {
     case OracleImage::Error:
         return difference(luminanceOf(frozen.lit), luminanceOf(lit), foreground);
     case OracleImage::Lambda: return idealLambda(now, before, foreground, floor);
     case OracleImage::LambdaError:
-        return difference(frozen.lambda, idealLambda(now, before, foreground, floor),
+        return difference(control.lambda, idealLambda(now, before, foreground, floor),
                           litStrata(now, before, foreground, floor));
-    case OracleImage::Alpha: return idealAlphaOf(filter);
+    case OracleImage::Alpha: return idealAlphaOf(filter, signal);
     case OracleImage::AlphaError:
-        return difference(frozen.alpha, idealAlphaOf(filter), both(frozen.hasHistory, foreground));
+        return difference(control.alpha, idealAlphaOf(filter, signal),
+                          both(control.hasHistory, foreground));
     case OracleImage::Reference: break;
     }
     throw std::logic_error("the reference is no image of numbers");
 }
 
-const GpuTexture* OracleView::image(OracleImage image, std::size_t state) {
+const GpuTexture* OracleView::image(OracleImage image, std::size_t state, std::size_t signal) {
     Impl& self = *impl_;
     if (!self.converged)
         return nullptr;
     if (image == OracleImage::Reference)
         return &self.picture;
     std::optional<FrozenFilter>& filter = self.filters.at(state);
-    if (!filter || !self.has(image, *filter))
+    if (!filter || signal >= self.signals.size() ||
+        !self.has(image, filter->images.control.at(signal)))
         return nullptr;
-    GpuTexture& texture = filter->textures[std::size_t(image)];
+    GpuTexture& texture = filter->textures[signal][std::size_t(image)];
     if (texture.size().x == 0) {
-        const Image<float> values = self.make(image, *filter);
+        const Image<float> values = self.make(image, *filter, signal);
         texture = GpuTexture("oracle", PixelFormat::R32F, values.size());
         texture.write(values);
     }

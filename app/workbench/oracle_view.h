@@ -23,13 +23,11 @@ public:
         std::uint32_t seed = 0; ///< of the whole run
         std::optional<FrameMoment> before = {};
     };
-    /// Takes the place of an earlier moment. `runs`: the filters of that frame, at least one, with
-    /// the settings that they ran with; lighting and display are those of the first. `samples` a
-    /// pixel, at least 1, for each of the two references; the second is not traced where nothing
-    /// has changed since the frame before. The watched renderer must have rendered; else
-    /// std::logic_error. Copies what it needs.
-    void begin(const Renderer& watched, Moment moment, std::span<const FilterRun> runs,
-               int samples);
+    /// Takes the place of an earlier moment. `settings` are those of that frame; its filters are
+    /// those that ran. `samples` a pixel, at least 1, for each of the two references; the second is
+    /// not traced where nothing has changed since the frame before. The watched renderer must have
+    /// rendered; else std::logic_error. Copies what it needs.
+    void begin(const Renderer& watched, Moment moment, const FrameSettings& settings, int samples);
     /// Traces for about so long, and one sample at least; nothing once it is done. True if it has
     /// just become done.
     bool advance(double milliseconds);
@@ -46,7 +44,8 @@ public:
     /// gradients), and for lambda where there was no frame before. Ideal and error are 0 on the
     /// background; so are the error of lambda where there is no light in either frame, and that of
     /// alpha where there is no history. The image lives until the moment is forgotten.
-    const GpuTexture* image(OracleImage image, std::size_t state);
+    /// Ideals are those of one signal, and so are lambda and alpha; error and reference are of all.
+    const GpuTexture* image(OracleImage image, std::size_t state, std::size_t signal = 0);
     /// Root mean square error of the filter's light on surfaces (signal times albedo) against that
     /// of the reference, over red, green and blue. Empty before it is done, where the filter did
     /// not run, and where no surface is seen.

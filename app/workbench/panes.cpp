@@ -3,7 +3,6 @@
 #include "app/workbench/fields.h"
 
 #include "renderer/base/names.h"
-#include "renderer/pipeline/denoise_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +45,7 @@ PaneLayout layoutFromName(std::string_view name) {
 
 Panes startPanes(const Settings& settings) {
     Panes panes;
+    panes.frame = settings;
     for (Pane& pane : panes.all)
         pane.settings = settings;
     std::size_t next = 1;
@@ -68,16 +68,20 @@ bool isShown(const Panes& panes, std::size_t pane) {
     return std::ranges::find(shown, pane) != shown.end();
 }
 
+Settings settingsOf(const Panes& panes, std::size_t pane) {
+    return {panes.frame, panes.all.at(pane).settings};
+}
+
 bool carriesSamples(const Panes& panes) {
     return std::ranges::any_of(shownPanes(panes), [&](std::size_t pane) {
-        return carriesSamples(panes.all[pane].settings);
+        return needsOf(panes.all[pane].settings).samples;
     });
 }
 
 std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after) {
     std::vector<std::size_t> changed;
     for (std::size_t i = 0; i < before.all.size(); ++i)
-        if (!differingFields(before.all[i].settings, after.all[i].settings).empty() ||
+        if (!differingFields(settingsOf(before, i), settingsOf(after, i)).empty() ||
             before.all[i].settings.filter != after.all[i].settings.filter)
             changed.push_back(i);
     return changed;
@@ -124,15 +128,8 @@ void copyPane(Panes& panes, std::size_t from, std::size_t to) {
     panes.all.at(to) = panes.all.at(from);
 }
 
-bool isFrameWide(const Field& field) {
-    return field.group == "lighting" || field.group == "display";
-}
-
 void setField(Panes& panes, const Field& field, double value) {
-    if (!isFrameWide(field))
-        return setFieldValue(panes.all[panes.active].settings, field, value);
-    for (Pane& pane : panes.all)
-        setFieldValue(pane.settings, field, value);
+    setFieldValue(panes.frame, panes.all[panes.active].settings, field, value);
 }
 
 void setFilter(Panes& panes, std::size_t pane, Filter filter) {
@@ -140,26 +137,8 @@ void setFilter(Panes& panes, std::size_t pane, Filter filter) {
     panes.all.at(pane).title.clear();
 }
 
-void setPane(Panes& panes, std::size_t pane, std::string title, const Settings& settings) {
-    Pane& target = panes.all.at(pane);
-    const LightingSettings lighting = target.settings.lighting;
-    const DisplaySettings display = target.settings.display;
-    target = {std::move(title), settings};
-    target.settings.lighting = lighting;
-    target.settings.display = display;
-}
-
-std::string_view titleOf(Filter filter) {
-    switch (filter) {
-    case Filter::None: return "None";
-    case Filter::Fixed: return "Fixed \xce\xb1";
-    case Filter::Svgf: return "SVGF";
-    case Filter::Asvgf: return "A-SVGF";
-    case Filter::Clamp: return "Clamp";
-    case Filter::Percentile: return "Percentile";
-    case Filter::Confidence: return "Confidence";
-    }
-    return "";
+void setPane(Panes& panes, std::size_t pane, std::string title, const FilterSettings& settings) {
+    panes.all.at(pane) = {std::move(title), settings};
 }
 
 std::string titleOf(const Pane& pane) {
@@ -173,10 +152,11 @@ std::string parametersOf(const Pane& pane) {
     std::snprintf(alpha, sizeof alpha, "\xce\xb1 %.3g",
                   double(pane.settings.denoiser.temporal.alpha));
     std::string text = alpha;
-    for (const Field* field : differingFields(pane.settings, Settings{}))
-        if (field->key != "alpha" && !isFrameWide(*field))
+    const Settings settings{{}, pane.settings};
+    for (const Field* field : differingFields(settings, Settings{}))
+        if (field->key != "alpha")
             text += ", " + std::string(field->key) + " " +
-                    valueText(*field, fieldValue(pane.settings, *field));
+                    valueText(*field, fieldValue(settings, *field));
     return text;
 }
 

@@ -28,10 +28,11 @@ PaneLayout layoutFromName(std::string_view name); ///< UsageError names the near
 /// FilterRun::state is the pane's index.
 struct Pane {
     std::string title; ///< of the preset that it was set to; empty: that of the filter
-    Settings settings; ///< lighting and display are the same in all panes
+    FilterSettings settings;
 };
 
 struct Panes {
+    FrameSettings frame; ///< of all
     std::array<Pane, kFilterStates> all;
     PaneLayout layout = PaneLayout::Single;
     std::size_t active = 0; ///< what keys and panels speak to; always a shown one
@@ -47,6 +48,8 @@ Panes startPanes(const Settings& settings);
 /// Those that run, in the order in which they are shown.
 std::vector<std::size_t> shownPanes(const Panes& panes);
 bool isShown(const Panes& panes, std::size_t pane);
+/// All that a pane's picture is made with.
+Settings settingsOf(const Panes& panes, std::size_t pane);
 /// Whether a frame of those that are shown has gradient samples.
 bool carriesSamples(const Panes& panes);
 std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after);
@@ -60,16 +63,11 @@ void swapPair(Panes& panes);
 void moveDivider(Panes& panes, float by); ///< stays within [0, 1]
 void copyPane(Panes& panes, std::size_t from, std::size_t to);
 
-/// Whether a tunable belongs to the whole frame and not to one filter.
-bool isFrameWide(const Field& field);
-/// Of the active pane, or of all where it is frame-wide. Clamped to its range.
+/// Of the active pane, or of the frame where it is frame-wide. Clamped to its range.
 void setField(Panes& panes, const Field& field, double value);
 void setFilter(Panes& panes, std::size_t pane, Filter filter);
-/// Filter and parameters of one pane; lighting and display stay as they are.
-void setPane(Panes& panes, std::size_t pane, std::string title, const Settings& settings);
+void setPane(Panes& panes, std::size_t pane, std::string title, const FilterSettings& settings);
 
-/// "A-SVGF"; for a person, where nameOf() is for files.
-std::string_view titleOf(Filter filter);
 std::string titleOf(const Pane& pane);
 /// The parameters that are not at their defaults: "alpha 0.1, history law frames"; never empty for
 /// a filter that accumulates, since alpha is always told.

@@ -7,8 +7,8 @@
 
 namespace afterglow {
 
-/// Milliseconds that the device worked for passes and for whole frames, smoothed so that they can be read. The first
-/// time of a pass may include compiling its shader and is soon forgotten.
+/// Milliseconds that the device worked for passes and for whole frames, smoothed so that they can
+/// be read. The first time of a pass may include compiling its shader and is soon forgotten.
 class PassTimings {
 public:
     struct Row {

@@ -57,6 +57,11 @@ std::size_t indexOf(std::string_view aov) {
     return std::size_t(std::ranges::find(all, aov, &AovInfo::name) - all.begin());
 }
 
+/// The signal that is looked at, in the frame that is there: the next one may have others.
+std::size_t signalIn(const Pictures::Sources& from) {
+    return std::min(from.state.signal, from.renderer.signals().size() - 1);
+}
+
 bool same(const DebugViewParams& a, const DebugViewParams& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
@@ -67,16 +72,17 @@ Pictures::Pictures(ShaderLibrary& shaders) : debugView_(shaders), difference_(sh
 
 Pictures::Choice Pictures::aovChoice(const Sources& from, std::size_t pane) const {
     const AovInfo& aov = aovs()[from.state.shown.index];
+    const auto signals = from.renderer.signals();
     Choice choice;
-    choice.legend = {std::string(aov.name), std::string(aov.meaning), {}, {}};
-    const auto run = std::ranges::find(from.runs, pane, &FilterRun::state);
-    if (!isMadeBy(aov, run->settings.filter, run->settings.denoiser)) {
+    choice.legend = {
+        fileStem(aov, signals[signalIn(from)], signals.size()), std::string(aov.meaning), {}, {}};
+    if (!isMadeBy(aov, from.renderer.ran(pane)->settings)) {
         choice.legend.note =
             titleOf(from.state.panes.all[pane]) + " does not make it: this is the picture.";
         return choice;
     }
     const ImageDisplay& display = from.state.displays[from.state.shown.index];
-    const AovSource source = sourceOf(from.renderer, aov, pane);
+    const AovSource source = sourceOf(from.renderer, aov, pane, signalIn(from));
     choice.image = &source.texture;
     choice.params = debugViewParams(display, source, from.renderer.size());
     choice.legend.display = display;
@@ -120,7 +126,7 @@ Pictures::Choice Pictures::oracleChoice(const Sources& from, std::size_t pane) c
         choice.legend.note = "It is shown when the reference has converged.";
         return choice;
     }
-    choice.image = from.oracle.image(wanted, pane);
+    choice.image = from.oracle.image(wanted, pane, signalIn(from));
     if (!choice.image) {
         choice.legend.note =
             titleOf(from.state.panes.all[pane]) + " has none: this is the picture.";
@@ -159,14 +165,13 @@ const GpuTexture* Pictures::developed(const Sources& from, Slot& slot, const Gpu
 }
 
 const GpuTexture* Pictures::of(const Sources& from, std::size_t pane) {
-    const FilterTargets& targets = from.renderer.targets().filters.at(pane);
-    if (!from.renderer.hasRun(pane))
+    if (!from.renderer.ran(pane))
         return nullptr;
     if (from.state.panes.layout == PaneLayout::Difference)
         return difference(from);
     const Choice choice = choiceFor(from, pane);
     if (!choice.image)
-        return &targets.display;
+        return &from.renderer.display(pane);
     if (choice.image->format() == PixelFormat::RGBA8)
         return choice.image;
     return developed(from, slots_[pane], *choice.image, choice.params);
@@ -192,7 +197,7 @@ Pictures::Subtraction Pictures::subtractionFor(const Sources& from) const {
         result.shown.params = {};
         result.shown.params.map = kMapRadiance;
         result.shown.params.pixelsPerTexel = 1;
-        result.shown.params.high = std::exp2(-panes.all[first].settings.display.exposure);
+        result.shown.params.high = std::exp2(-panes.frame.display.exposure);
         if (!a.legend.name.empty())
             result.shown.legend.note = "It cannot be subtracted: this is of the pictures.";
     }
@@ -217,7 +222,7 @@ Pictures::Subtraction Pictures::subtractionFor(const Sources& from) const {
 }
 
 const GpuTexture* Pictures::difference(const Sources& from) {
-    if (!from.renderer.hasRun(from.state.panes.pair[1]))
+    if (!from.renderer.ran(from.state.panes.pair[1]))
         return nullptr;
     const Subtraction wanted = subtractionFor(from);
     Slot& slot = slots_.back();
@@ -237,7 +242,7 @@ const GpuTexture* Pictures::difference(const Sources& from) {
 
 PictureLegend Pictures::legendOf(const Sources& from, std::size_t pane) const {
     const Panes& panes = from.state.panes;
-    if (panes.layout == PaneLayout::Difference && from.renderer.hasRun(panes.pair[1]))
+    if (panes.layout == PaneLayout::Difference && from.renderer.ran(panes.pair[1]))
         return subtractionFor(from).shown.legend;
     return choiceFor(from, pane).legend;
 }

@@ -27,7 +27,6 @@ public:
 
     struct Sources {
         Renderer& renderer;
-        std::span<const FilterRun> runs; ///< of the last frame
         const ViewState& state;
         const PassCapture& passes;
         OracleView& oracle;

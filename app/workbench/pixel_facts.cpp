@@ -1,5 +1,6 @@
 #include "app/workbench/pixel_facts.h"
 
+#include "renderer/filters/svgf_filter.h"
 #include "renderer/image/color.h"
 #include "shared/bindings.h"
 
@@ -47,7 +48,7 @@ std::array<Corner, 4> cornersAt(glm::vec2 position) {
 /// shaders/denoise/temporal.comp, one pixel at a time.
 class TemporalPixel {
 public:
-    TemporalPixel(const RenderTargets& shared, const FilterTargets& own, const PixelFacts& facts)
+    TemporalPixel(const RenderTargets& shared, const ImageSet& own, const PixelFacts& facts)
         : t_(shared), own_(own), facts_(facts) {}
 
     std::optional<FetchedHistory> history() const {
@@ -63,7 +64,7 @@ public:
             history.taps[i] = {q, weight, reasonAt(q)};
             if (history.taps[i].reason != gpu::kHistoryKept || weight == 0.0f)
                 continue;
-            history.length += weight * own_.moments.previous().readAt<glm::vec4>(q).z;
+            history.length += weight * own_.previous(svgf::kMoments).readAt<glm::vec4>(q).z;
             weights += weight;
         }
         history.length = weights < gpu::kLeastWeight ? 0.0f : history.length / weights;
@@ -72,7 +73,7 @@ public:
 
     /// The stratum that lambda was fetched from, where it is that of one.
     std::optional<glm::ivec2> lambdaFrom() const {
-        const int fetch = facts_.settings.denoiser.temporal.lambdaFetch;
+        const int fetch = facts_.plan.temporal.lambdaFetch;
         if (fetch == gpu::kLambdaBilinear)
             return {};
         glm::ivec2 from = facts_.stratum;
@@ -99,7 +100,7 @@ public:
         float weights = 0.0f;
         for (const auto& [q, share] : cornersAt(position)) {
             const glm::ivec2 tile = glm::clamp(q, glm::ivec2(0), tilesOf(t_.size) - 1);
-            const auto found = own_.luminanceRange.readAt<glm::vec4>(tile);
+            const auto found = own_.find(svgf::kLuminanceRange)->readAt<glm::vec4>(tile);
             sum += share * found.z * glm::vec2(found);
             weights += share * found.z;
         }
@@ -110,88 +111,85 @@ private:
     int reasonAt(glm::ivec2 q) const {
         if (q.x < 0 || q.y < 0 || q.x >= t_.size.x || q.y >= t_.size.y)
             return gpu::kHistoryOffScreen;
-        if (t_.visibility.previous().readAt<glm::uvec4>(q).x != facts_.instance)
+        if (t_.previousVisibility.readAt<glm::uvec4>(q).x != facts_.instance)
             return gpu::kHistoryInstance;
-        const gpu::TemporalParams& params = facts_.settings.denoiser.temporal;
+        const gpu::TemporalParams& params = facts_.plan.temporal;
         const float tolerance =
             params.depthTolerance * (std::abs(facts_.slope.x) + std::abs(facts_.slope.y)) +
             gpu::kDepthEpsilon * facts_.motion.z;
-        const auto guide = t_.guides.previous().readAt<glm::vec4>(q);
+        const auto guide = t_.previousGuides.readAt<glm::vec4>(q);
         if (std::abs(guide.w - facts_.motion.z) > tolerance)
             return gpu::kHistoryDepth;
         return glm::dot(glm::vec3(guide), facts_.normal) >= params.normalTolerance
                    ? gpu::kHistoryKept
                    : gpu::kHistoryNormal;
     }
-    float lambdaAt(glm::ivec2 s) const { return own_.lambda.readAt<float>(s); }
+    float lambdaAt(glm::ivec2 s) const { return own_.find(svgf::kLambda)->readAt<float>(s); }
 
     const RenderTargets& t_;
-    const FilterTargets& own_;
+    const ImageSet& own_;
     const PixelFacts& facts_;
 };
 
 void readSurface(const RenderTargets& t, PixelFacts& facts) {
     const glm::ivec2 p = facts.pixel;
-    const auto seen = t.visibility.current().readAt<glm::uvec4>(p);
+    const auto seen = t.surfaces.visibility.readAt<glm::uvec4>(p);
     facts.instance = seen.x;
     facts.triangle = seen.y;
     facts.barycentrics = {glm::uintBitsToFloat(seen.z), glm::uintBitsToFloat(seen.w)};
-    facts.position = bitsAsFloats(t.surface.readAt<glm::uvec4>(p));
-    const auto guide = t.guides.current().readAt<glm::vec4>(p);
+    facts.position = bitsAsFloats(t.surfaces.surface.readAt<glm::uvec4>(p));
+    const auto guide = t.surfaces.guides.readAt<glm::vec4>(p);
     facts.normal = glm::vec3(guide);
     facts.depth = guide.w;
-    facts.slope = t.slope.readAt<glm::vec2>(p);
-    facts.motion = t.motion.readAt<glm::vec4>(p);
-    facts.albedo = glm::vec3(t.albedo.readAt<glm::vec4>(p));
-    facts.emission = glm::vec3(t.emission.readAt<glm::vec4>(p));
-    facts.raw = t.raw.current().readAt<glm::vec4>(p);
+    facts.slope = t.surfaces.slope.readAt<glm::vec2>(p);
+    facts.motion = t.surfaces.motion.readAt<glm::vec4>(p);
+    facts.albedo = glm::vec3(t.surfaces.albedo.readAt<glm::vec4>(p));
+    facts.emission = glm::vec3(t.surfaces.emission.readAt<glm::vec4>(p));
     facts.seed = unpackSeed(t.seeds.current().readAt<std::uint32_t>(p));
 }
 
-void readSample(const RenderTargets& t, PixelFacts& facts) {
+void readSample(const RenderTargets& t, const SignalTargets& signal, PixelFacts& facts) {
     const auto stored = t.samples.readAt<glm::uvec4>(facts.stratum);
     facts.fate = stored.w;
-    facts.offeredTo = unpackPlace(t.claims.readAt<glm::uvec2>(facts.stratum).y);
+    facts.offeredTo = unpackPlace(stored.x) / kStratum;
     if (stored.y == 0)
         return;
     const int place = int(stored.y) - 1;
     CarriedSample sample;
     sample.landing = facts.stratum * kStratum + glm::ivec2(place % kStratum, place / kStratum);
     sample.source = unpackPlace(stored.z);
-    sample.before = glm::uintBitsToFloat(stored.x);
-    if (!facts.hasExtraSamples())
-        sample.now = t.raw.current().readAt<glm::vec4>(sample.landing).a;
-    else if (facts.plan.useLambda && !t.extra.empty()) // else nobody may have shaded it
-        sample.now = t.extra.raw.readAt<glm::vec4>(facts.stratum).a;
+    sample.before = signal.raw.previous().readAt<glm::vec4>(sample.source).a;
+    if (!facts.hasExtraSamples)
+        sample.now = signal.raw.current().readAt<glm::vec4>(sample.landing).a;
+    else if (facts.plan.useLambda) // else nobody may have shaded it
+        sample.now = signal.sampleRaw.readAt<glm::vec4>(facts.stratum).a;
     facts.sample = sample;
 }
 
-void readGradient(const FilterTargets& own, PixelFacts& facts) {
-    const auto measured = own.gradientSamples.readAt<glm::vec4>(facts.stratum);
+void readGradient(const ImageSet& own, PixelFacts& facts) {
+    const auto measured = own.find(svgf::kGradientSamples)->readAt<glm::vec4>(facts.stratum);
     StratumGradient gradient;
     gradient.measured = glm::vec2(measured);
-    gradient.reconstructed = facts.plan.gradientIterations > 0
-                                 ? glm::vec2(own.gradient[0].readAt<glm::vec4>(facts.stratum))
-                                 : gradient.measured;
+    gradient.reconstructed =
+        facts.plan.gradientIterations > 0
+            ? glm::vec2(own.find(svgf::kGradient0)->readAt<glm::vec4>(facts.stratum))
+            : gradient.measured;
     gradient.mean = measured.z;
     gradient.variance = measured.w;
-    gradient.lambda = own.lambda.readAt<float>(facts.stratum);
+    gradient.lambda = own.find(svgf::kLambda)->readAt<float>(facts.stratum);
     facts.gradient = gradient;
 }
 
-void readHistory(const RenderTargets& t, const FilterTargets& own, PixelFacts& facts) {
+void readHistory(const RenderTargets& t, const ImageSet& own, PixelFacts& facts) {
     const glm::ivec2 p = facts.pixel;
-    const auto control = own.control.readAt<glm::vec4>(p);
+    const auto control = own.find(svgf::kControl)->readAt<glm::vec4>(p);
     facts.lambda = control.x;
     facts.alpha = control.y;
     facts.reason = int(control.w);
-    const auto moments = own.moments.current().readAt<glm::vec4>(p);
+    const auto moments = own.find(svgf::kMoments)->readAt<glm::vec4>(p);
     facts.moments = glm::vec2(moments);
     facts.length = moments.z;
-    // With nothing fed back from the spatial filter the blend is the history itself.
-    const GpuTexture& blend =
-        facts.plan.feedbackIteration > 0 ? own.accumulated : own.color.current();
-    facts.accumulated = blend.readAt<glm::vec4>(p);
+    facts.accumulated = own.find(svgf::blendOf(facts.plan))->readAt<glm::vec4>(p);
     facts.historyLuminance = facts.accumulated.a;
     if (!facts.isSurface())
         return;
@@ -214,29 +212,33 @@ int FetchedHistory::validTaps() const {
     }));
 }
 
-PixelFacts pixelFacts(const Renderer& renderer, std::size_t state, const Settings& settings,
-                      glm::ivec2 pixel) {
+PixelFacts pixelFacts(const Renderer& renderer, std::size_t state, const FrameSettings& settings,
+                      glm::ivec2 pixel, std::size_t signal) {
     const RenderTargets& t = renderer.targets();
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= t.size.x || pixel.y >= t.size.y)
         throw std::logic_error("the inspector looks at pixels of the picture only");
-    if (state >= kFilterStates)
+    const RanFilter* const ran = renderer.ran(state);
+    if (!ran || !ran->svgf)
         throw std::logic_error("the inspector looks at filters that there are only");
-    const GpuTexture& signal = renderer.filteredSignal(state);
-    const FilterTargets& own = t.filters[state];
+    const SignalTargets& noisy = t.signals.at(signal);
+    const ImageSet& own = t.filters[state].own.at(signal);
     PixelFacts facts;
-    facts.settings = settings;
-    facts.plan = makePlan(settings.filter, settings.denoiser);
+    facts.settings = ran->settings;
+    facts.plan = *ran->svgf;
+    facts.hasExtraSamples =
+        SamplePlacement(settings.lighting.gradientSamples) == SamplePlacement::Extra;
     facts.pixel = pixel;
     facts.stratum = pixel / kStratum;
     readSurface(t, facts);
+    facts.raw = noisy.raw.current().readAt<glm::vec4>(pixel);
     if (facts.plan.carrySamples)
-        readSample(t, facts);
+        readSample(t, noisy, facts);
     if (facts.plan.useLambda)
         readGradient(own, facts);
     if (facts.plan.accumulate)
         readHistory(t, own, facts);
-    facts.filtered = signal.readAt<glm::vec4>(pixel);
-    facts.color = glm::vec3(own.composed.readAt<glm::vec4>(pixel));
+    facts.filtered = renderer.filteredSignal(state, signal).readAt<glm::vec4>(pixel);
+    facts.color = glm::vec3(t.filters[state].composed.readAt<glm::vec4>(pixel));
     return facts;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "renderer/pipeline/denoise_plan.h"
 #include "renderer/pipeline/renderer.h"
 
 #include <array>
@@ -50,8 +49,9 @@ struct PixelSeed {
 
 /// What the last frame holds at one pixel and its stratum, in one filter.
 struct PixelFacts {
-    Settings settings;
-    DenoisePlan plan;
+    FilterSettings settings;
+    SvgfPlan plan;
+    bool hasExtraSamples = false; ///< they are beside the picture
     glm::ivec2 pixel{0}, stratum{0};
 
     // The surface. Where there is none, `instance` is 0 and what is here has no meaning.
@@ -90,13 +90,10 @@ struct PixelFacts {
 
     bool isSurface() const { return instance != 0; }
     bool isSample() const { return sample && sample->landing == pixel; }
-    bool hasExtraSamples() const {
-        return SamplePlacement(settings.lighting.gradientSamples) == SamplePlacement::Extra;
-    }
 };
 
 /// Single pixels are read back; std::logic_error as inspect().
-PixelFacts pixelFacts(const Renderer& renderer, std::size_t state, const Settings& settings,
-                      glm::ivec2 pixel);
+PixelFacts pixelFacts(const Renderer& renderer, std::size_t state, const FrameSettings& settings,
+                      glm::ivec2 pixel, std::size_t signal = 0);
 
 } // namespace afterglow

@@ -56,7 +56,7 @@ Variant readPane(const JsonReader& json) {
     json.expectKeys({"filter", "settings"});
     for (const auto& [key, value] : json.at("settings").members()) {
         const auto field = std::ranges::find(fields(), std::string_view(key), &Field::key);
-        if (field != fields().end() && isFrameWide(*field))
+        if (field != fields().end() && field->isFrameWide())
             value.refuse("belongs to the whole frame, not to a filter");
         variant.changes.emplace_back(key, value.setting());
         refusedAt(value, [&] { return settingsOf(variant, Signal::Both); });
@@ -134,9 +134,7 @@ TourStop readStop(const JsonReader& json) {
     stop.text = readLine(json.at("text"), "what is said at this stop");
     stop.scene = readLine(json.at("scene"), "the name of a scene");
     if (const auto signal = json.find("signal")) {
-        constexpr std::array kSignals{Signal::Shadows, Signal::AmbientOcclusion, Signal::Both};
-        stop.signal =
-            kSignals[choiceOf(*signal, kSignals, [](Signal value) { return nameOf(value); })];
+        stop.signal = allSignals()[signal->choice(signalNames())];
     }
     if (const auto panes = json.find("panes")) {
         std::size_t pane = 0;
@@ -279,7 +277,7 @@ void enterStop(ViewState& state, const TourStop& stop, glm::ivec2 image) {
         image = kNominal;
     setLights(state, stop.lights);
     startTime(state, stop);
-    state.panes = panesOf(stop, state.settings().display);
+    state.panes = panesOf(stop, state.panes.frame.display);
     showImage(state, stop.image);
 
     goHome(state);

@@ -155,7 +155,8 @@ void toggleKeyLight(ViewState& state) {
 
 void changeExposure(ViewState& state, float stops) {
     const Field& field = fieldByKey("exposure");
-    setField(state.panes, field, fieldValue(state.settings(), field) + double(stops));
+    setField(state.panes, field,
+             fieldValue(settingsOf(state.panes, state.panes.active), field) + double(stops));
 }
 
 void toggleAnimation(ViewState& state) {
@@ -316,13 +317,20 @@ void passTime(ViewState& state, double wallSeconds) {
     state.notice.secondsLeft = std::max(state.notice.secondsLeft - wallSeconds, 0.0);
 }
 
+std::span<const SignalInfo> signalsOf(const ViewState& state) {
+    return signalsOf(Signal(state.panes.frame.lighting.signal));
+}
+
+std::size_t shownSignal(const ViewState& state) {
+    return std::min(state.signal, signalsOf(state).size() - 1);
+}
+
 std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane) {
     if (state.shown.kind != Shown::Kind::Aov)
         return {};
-    const Settings& settings = state.panes.all.at(pane).settings;
     const AovInfo& aov = aovs()[state.shown.index];
-    return isMadeBy(aov, settings.filter, settings.denoiser) ? std::optional(state.shown.index)
-                                                             : std::nullopt;
+    return isMadeBy(aov, state.panes.all.at(pane).settings) ? std::optional(state.shown.index)
+                                                            : std::nullopt;
 }
 
 std::filesystem::path freePath(const std::filesystem::path& folder, std::string_view stem,

@@ -106,6 +106,7 @@ struct ViewState {
     std::uint32_t seed = 0;
     Resolution resolution;
     Shown shown;
+    std::size_t signal = 0; ///< whose images, lambda and history are looked at; see shownSignal()
     std::vector<ImageDisplay> displays;                     ///< by AOV
     std::array<ImageDisplay, kOracleImages> oracleDisplays; ///< by OracleImage
 
@@ -129,8 +130,9 @@ struct ViewState {
     bool keyboardInPanel = false; ///< keys move in the panel and press its buttons
     bool quit = false;
 
-    Settings& settings() { return panes.all[panes.active].settings; }
-    const Settings& settings() const { return panes.all[panes.active].settings; }
+    /// Of the active pane.
+    FilterSettings& settings() { return panes.all[panes.active].settings; }
+    const FilterSettings& settings() const { return panes.all[panes.active].settings; }
 };
 
 /// The state in which a scene is first seen. UsageError names an unknown camera and the known ones.
@@ -172,6 +174,10 @@ FrameMoment liveMoment(ViewState& state);
 void follow(ViewState& state, const FrameMoment& moment);
 /// In every round of the loop, rendered or not.
 void passTime(ViewState& state, double wallSeconds);
+
+/// The signals that frames are divided into, and the one that is looked at.
+std::span<const SignalInfo> signalsOf(const ViewState& state);
+std::size_t shownSignal(const ViewState& state);
 
 /// The AOV that a pane shows, unless its filter does not make it.
 std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane);

@@ -100,7 +100,7 @@ void Workbench::Impl::render(const FrameMoment& moment) {
     } else {
         capture.clear();
     }
-    runs.clear();
+    std::vector<FilterRun> runs;
     for (const std::size_t pane : shownPanes(state.panes))
         runs.push_back({pane, state.panes.all[pane].settings});
     renderer.render({.camera = moment.camera,
@@ -108,7 +108,7 @@ void Workbench::Impl::render(const FrameMoment& moment) {
                      .frame = state.time.frame,
                      .seed = state.seed,
                      .lights = moment.lights},
-                    runs);
+                    state.panes.frame, runs);
     if (listens)
         capture.end();
     renderer.setListener(nullptr);
@@ -124,6 +124,7 @@ void Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
     before = std::move(now);
     now = moment;
     nowSeed = state.seed;
+    nowSettings = state.panes.frame;
     frameRendered(state.time, wallSeconds);
 }
 
@@ -169,7 +170,7 @@ void Workbench::Impl::followFreeze() {
         return toggleFreeze(state);
     if (!oracle.isActive() || oracle.samples() != state.oracleSamples) {
         pictures.changed();
-        oracle.begin(renderer, {*now, nowSeed, before}, runs, state.oracleSamples);
+        oracle.begin(renderer, {*now, nowSeed, before}, nowSettings, state.oracleSamples);
     }
     if (oracle.advance(kOracleMilliseconds))
         pictures.changed();
@@ -192,23 +193,19 @@ void Workbench::Impl::stepPass(int step) {
     perform(state, {Action::StepOnce});
 }
 
-// A pane may have been set to something else since.
-const Settings& Workbench::Impl::settingsThatRan(std::size_t pane) const {
-    return std::ranges::find(runs, pane, &FilterRun::state)->settings;
-}
-
 void Workbench::Impl::inspectPixel(bool rendered) {
     const auto& wanted = state.inspected ? state.inspected : state.hovered;
-    if (!state.showInspector || !wanted || !now || !renderer.hasRun(wanted->pane) ||
+    if (!state.showInspector || !wanted || !now || !renderer.ran(wanted->pane) ||
         glm::any(glm::greaterThanEqual(wanted->pixel, renderer.size()))) {
         if (!state.showInspector)
             inspection.reset();
         return;
     }
-    const bool same =
-        inspection && inspection->pixel == wanted->pixel && inspection->state == wanted->pane;
+    const std::size_t signal = std::min(state.signal, renderer.signals().size() - 1);
+    const bool same = inspection && inspection->pixel == wanted->pixel &&
+                      inspection->state == wanted->pane && inspection->signal == signal;
     if (rendered || !same)
-        inspection = inspect(renderer, wanted->pane, settingsThatRan(wanted->pane), wanted->pixel);
+        inspection = inspect(renderer, wanted->pane, nowSettings, wanted->pixel, signal);
 }
 
 const GpuTexture* Workbench::picture(std::size_t pane) {
@@ -220,7 +217,7 @@ glm::ivec2 Workbench::imageSize() const {
 }
 
 PictureLegend Workbench::legend(std::size_t pane) {
-    if (!impl_->renderer.hasRun(pane))
+    if (!impl_->renderer.ran(pane))
         return {.name = {}, .meaning = {}, .note = "It runs with the next frame.", .display = {}};
     return impl_->pictures.legendOf(impl_->sources(), pane);
 }

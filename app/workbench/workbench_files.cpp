@@ -1,5 +1,6 @@
 // What Workbench does with files and with the clipboard.
 
+#include "app/experiment/aov_files.h"
 #include "app/experiment/experiment.h"
 #include "app/experiment/output.h"
 #include "app/experiment/presets.h"
@@ -79,7 +80,7 @@ void Workbench::Impl::serveRequests() {
     if (asked(wanted.saveTake))
         attempt([&] { saveTake(); });
     if (asked(wanted.copyPreset)) {
-        copied = presetText(presetOf("copied", state.settings()));
+        copied = presetText(presetOf("copied", settingsOf(state.panes, state.panes.active)));
         notify(state, "The preset is in the clipboard");
     }
     if (const std::string name = std::exchange(wanted.savePreset, {}); !name.empty())
@@ -93,13 +94,14 @@ void Workbench::Impl::serveRequests() {
 
 void Workbench::Impl::fitRange() {
     const std::size_t pane = state.panes.active, index = state.shown.index;
-    if (state.shown.kind == Shown::Kind::Aov && renderer.hasRun(pane) &&
-        isMadeBy(aovs()[index], settingsThatRan(pane).filter, settingsThatRan(pane).denoiser))
+    const std::size_t signal = std::min(state.signal, renderer.signals().size() - 1);
+    if (state.shown.kind == Shown::Kind::Aov && renderer.ran(pane) &&
+        isMadeBy(aovs()[index], renderer.ran(pane)->settings))
         state.displays[index] =
-            fittedTo(readAov(renderer, aovs()[index], pane), state.displays[index]);
+            fittedTo(readAov(renderer, aovs()[index], pane, signal), state.displays[index]);
     if (state.shown.kind != Shown::Kind::Oracle)
         return;
-    const GpuTexture* const image = oracle.image(OracleImage(state.shown.index), pane);
+    const GpuTexture* const image = oracle.image(OracleImage(state.shown.index), pane, signal);
     if (!image)
         return notify(state, "There is nothing yet that a range could be fitted to", true);
     ImageDisplay& display = state.oracleDisplays[state.shown.index];
@@ -131,17 +133,14 @@ void Workbench::save(const Image<glm::u8vec4>& picture) {
 // Every image that the active filter makes, as 32-bit float, and the picture.
 void Workbench::Impl::saveImageFiles() {
     const std::size_t pane = state.panes.active;
-    if (!now || !renderer.hasRun(pane))
+    if (!now || !renderer.ran(pane))
         return;
-    const Settings& settings = settingsThatRan(pane);
     const OutputFolder folder(freePath(folders.output, "afterglow-images", ""));
     int count = 0;
     for (const AovInfo& aov : aovs())
-        if (isMadeBy(aov, settings.filter, settings.denoiser)) {
-            folder.writeFloat(aov.name, "exr", readAov(renderer, aov, pane), aov.channels);
-            ++count;
-        }
-    folder.writePng("picture.png", renderer.targets().filters[pane].display.read<glm::u8vec4>());
+        if (isMadeBy(aov, renderer.ran(pane)->settings))
+            count += writeAov(folder, "exr", renderer, aov, {}, pane);
+    folder.writePng("picture.png", renderer.display(pane).read<glm::u8vec4>());
     notify(state, "Saved " + std::to_string(count) + " images in " + folder.path().string());
 }
 
@@ -167,9 +166,9 @@ void Workbench::Impl::saveTake() {
     base.scene = state.sceneName;
     base.size = renderer.size();
     base.seed = state.seed;
-    base.signal = Signal(state.settings().lighting.signal);
+    base.signal = Signal(state.panes.frame.lighting.signal);
     for (const std::size_t pane : shownPanes(state.panes)) {
-        Preset preset = presetOf("pane", state.panes.all[pane].settings);
+        Preset preset = presetOf("pane", settingsOf(state.panes, pane));
         preset.variant.name = std::string(1, letterOf(pane)) + "-" +
                               std::string(nameOf(state.panes.all[pane].settings.filter));
         base.variants.push_back(preset.variant);
@@ -181,7 +180,7 @@ void Workbench::Impl::saveTake() {
 }
 
 void Workbench::Impl::savePreset(const std::string& name) {
-    Preset preset = presetOf(name, state.settings());
+    Preset preset = presetOf(name, settingsOf(state.panes, state.panes.active));
     preset.title = name.substr(0, kTitleLength);
     preset.description = "Saved from pane " + std::string(1, letterOf(state.panes.active));
     preset.source = "own choice";
@@ -266,7 +265,7 @@ void Workbench::paste(const std::string& text) {
     impl_->attempt([&] {
         const Preset preset = parsePreset(text, "clipboard");
         setPane(state.panes, state.panes.active, preset.title,
-                settingsOf(preset.variant, Signal::Both)); // the signal is the frame's
+                settingsOf(preset.variant, Signal::Both));
         notify(state, "Pasted the preset " + preset.title);
     });
 }

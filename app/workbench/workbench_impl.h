@@ -22,8 +22,7 @@ struct Workbench::Impl {
     void followFreeze();
     void stepPass(int step);
     void inspectPixel(bool rendered);
-    const Settings& settingsThatRan(std::size_t pane) const; ///< of a pane that has
-    Pictures::Sources sources() { return {renderer, runs, state, capture, oracle}; }
+    Pictures::Sources sources() { return {renderer, state, capture, oracle}; }
 
     // What was requested, in workbench_files.cpp.
     void serveRequests();
@@ -65,8 +64,8 @@ struct Workbench::Impl {
     std::optional<FrameMoment> now, before; ///< of the last two frames
     std::optional<FrameMoment> checkpointMoment;
     std::uint32_t nowSeed = 0;
-    std::vector<FilterRun> runs; ///< of the last frame, with the settings that they ran with
-    bool capturesAll = false;    ///< every pass of the next frame
+    FrameSettings nowSettings; ///< of the last frame
+    bool capturesAll = false;  ///< every pass of the next frame
     std::vector<std::string> shaderErrors;
     std::optional<std::string> copied;
     std::string experiment; ///< whose frames the take plays; empty: a scene was opened

@@ -36,6 +36,7 @@ std::string_view kindName(GLenum type) {
     case GL_UNSIGNED_INT_IMAGE_2D_ARRAY: return "uimage2DArray";
     case GL_IMAGE_BUFFER: return "imageBuffer";
     case GL_UNSIGNED_INT_IMAGE_BUFFER: return "uimageBuffer";
+    case GL_UNIFORM_BUFFER: return "a uniform block"; // no type of GLSL has this number
     default: return {};
     }
 }
@@ -47,13 +48,16 @@ PixelFormat formatOf(const Binding& binding) {
 }
 
 GLuint idOf(const Binding& binding) {
-    return binding.buffer  ? binding.buffer->texture()
-           : binding.array ? binding.array->id()
-                           : binding.texture->id();
+    return binding.block    ? binding.block->id()
+           : binding.buffer ? binding.buffer->texture()
+           : binding.array  ? binding.array->id()
+                            : binding.texture->id();
 }
 
 /// Whether a uniform of this type can be given this texture, array or buffer.
 bool fits(GLenum type, const Binding& binding) {
+    if (binding.block || type == GL_UNIFORM_BUFFER)
+        return binding.block && type == GL_UNIFORM_BUFFER;
     const FormatInfo format = info(formatOf(binding));
     if (isImage(type) && !format.isImage)
         return false;
@@ -72,6 +76,8 @@ bool fits(GLenum type, const Binding& binding) {
 }
 
 std::string describe(const Binding& binding) {
+    if (binding.block)
+        return "a buffer with a uniform block";
     return (binding.buffer  ? "a buffer of texels of format "
             : binding.array ? "an array of textures of format "
                             : "a texture of format ") +
@@ -151,16 +157,27 @@ void LinkedProgram::reflect() {
         slots_.push_back({slotName.data(), GLenum(type), unit});
         glProgramUniform1i(id(), location, unit);
     }
+    reflectBlocks();
     // Drivers list them in orders of their own; messages shall not depend on that.
     std::ranges::sort(slots_, {}, &Slot::name);
+}
 
-    const GLuint block = glGetProgramResourceIndex(id(), GL_UNIFORM_BLOCK, "Params");
-    if (block == GL_INVALID_INDEX)
-        return;
-    const GLenum wanted = GL_BUFFER_DATA_SIZE;
-    GLint size = 0;
-    glGetProgramResourceiv(id(), GL_UNIFORM_BLOCK, block, 1, &wanted, 1, nullptr, &size);
-    params_ = GpuBuffer(name_ + " Params", std::size_t(size));
+void LinkedProgram::reflectBlocks() {
+    GLint count = 0;
+    glGetProgramInterfaceiv(id(), GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    for (GLuint i = 0; i < GLuint(count); ++i) {
+        const std::array<GLenum, 2> wanted{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
+        std::array<GLint, 2> got{};
+        glGetProgramResourceiv(id(), GL_UNIFORM_BLOCK, i, GLsizei(wanted.size()), wanted.data(),
+                               GLsizei(got.size()), nullptr, got.data());
+        std::array<char, 128> blockName{};
+        glGetProgramResourceName(id(), GL_UNIFORM_BLOCK, i, GLsizei(blockName.size()), nullptr,
+                                 blockName.data());
+        if (std::string_view(blockName.data()) == "Params")
+            params_ = GpuBuffer(name_ + " Params", std::size_t(got[1]));
+        else
+            slots_.push_back({blockName.data(), GL_UNIFORM_BUFFER, got[0]});
+    }
 }
 
 const LinkedProgram::Slot* LinkedProgram::find(std::string_view name) const {
@@ -186,6 +203,10 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
     if (texture == 0)
         throw std::logic_error(name_ + " was given nothing as " + slot.name +
                                ": the texture was never made");
+    if (slot.type == GL_UNIFORM_BUFFER) {
+        glBindBufferBase(GL_UNIFORM_BUFFER, GLuint(slot.unit), texture);
+        return;
+    }
     if (!isImage(slot.type)) {
         glBindTextureUnit(GLuint(slot.unit), texture);
         return;

@@ -14,8 +14,8 @@
 
 namespace afterglow {
 
-/// A texture, an array of them, or a buffer seen as texels, under the name that the shader knows it
-/// by. For the duration of a call.
+/// A texture, an array of them, a buffer seen as texels, or a buffer that holds a uniform block,
+/// under the name that the shader knows it by. For the duration of a call.
 struct Binding {
     Binding(std::string_view shaderName, const GpuTexture& source)
         : name(shaderName), texture(&source) {}
@@ -23,11 +23,14 @@ struct Binding {
         : name(shaderName), array(&source) {}
     Binding(std::string_view shaderName, const TexelBuffer& source)
         : name(shaderName), buffer(&source) {}
+    Binding(std::string_view blockName, const GpuBuffer& source)
+        : name(blockName), block(&source) {}
 
     std::string_view name;
-    const GpuTexture* texture = nullptr; ///< one of the three
+    const GpuTexture* texture = nullptr; ///< one of the four
     const GpuTextureArray* array = nullptr;
     const TexelBuffer* buffer = nullptr;
+    const GpuBuffer* block = nullptr;
 };
 
 /// Whether a name that a program does not use is std::logic_error. On from the start in builds that
@@ -35,7 +38,8 @@ struct Binding {
 /// texture that it proves unused, and drivers prove different things.
 void setStrictBindings(bool strict);
 
-/// What a linked program needs from outside: its textures by name, and one block named Params.
+/// What a linked program needs from outside: its textures and uniform blocks by name, and one block
+/// named Params, which is its own.
 /// Units and sizes are asked from the driver; they are written nowhere else.
 class LinkedProgram {
 public:
@@ -59,11 +63,13 @@ public:
 private:
     struct Slot {
         std::string name;
-        GLenum type; ///< GL_SAMPLER_2D, GL_UNSIGNED_INT_IMAGE_BUFFER, ...
+        GLenum
+            type; ///< GL_SAMPLER_2D, GL_UNSIGNED_INT_IMAGE_BUFFER, ...; GL_UNIFORM_BUFFER: a block
         GLint unit;
     };
 
     void reflect();
+    void reflectBlocks();
     const Slot* find(std::string_view name) const;
     void bindOne(const Slot& slot, const Binding& binding, bool written) const;
     std::string slotNames() const;
@@ -77,7 +83,7 @@ private:
 /// A compute shader, its textures and its one parameter block.
 ///
 /// The shader has `layout(std140, binding = kPassBlock) uniform Params { ... };` or no parameters.
-/// A block at kFrameBlock belongs to whoever owns the frame and stays as it is bound.
+/// Other blocks, as that of the frame, are read under their names.
 class ComputeProgram {
 public:
     ComputeProgram(std::string_view name, const ExpandedShader& source);
@@ -104,6 +110,10 @@ public:
     void dispatch(glm::ivec2 size, std::initializer_list<Binding> reads,
                   std::initializer_list<Binding> writes) {
         dispatch(glm::ivec3(size, 1), reads, writes);
+    }
+    void dispatch(glm::ivec2 size, std::span<const Binding> reads,
+                  std::span<const Binding> writes) {
+        dispatchBytes(glm::ivec3(size, 1), {}, reads, writes);
     }
 
     glm::ivec3 groupSize() const { return groupSize_; } ///< threads in a workgroup

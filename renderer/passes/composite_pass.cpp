@@ -1,18 +1,37 @@
 #include "renderer/passes/composite_pass.h"
 
-namespace afterglow {
+#include <array>
+#include <stdexcept>
+#include <vector>
 
-CompositePass::CompositePass(ShaderLibrary& shaders)
-    : program_(shaders.compute("post/composite.comp")) {}
+namespace afterglow {
+namespace {
+
+constexpr std::array<std::string_view, 2> kSignalNames{"signal0", "signal1"};
+constexpr std::array<std::string_view, 2> kDemodulationNames{"demodulation0", "demodulation1"};
+
+Defines definesFor(std::size_t signals) {
+    return {{"SIGNALS", std::to_string(signals)}};
+}
+
+} // namespace
+
+CompositePass::CompositePass(ShaderLibrary& shaders) : shaders_(shaders) {
+    shaders_.compute("post/composite.comp", definesFor(1)); // others where they are needed
+}
 
 void CompositePass::run(FrameContext& frame, const Inputs& in, const Outputs& out) {
+    if (in.terms.empty() || in.terms.size() > kSignalNames.size())
+        throw std::logic_error("CompositePass: it adds up one or two signals");
     const auto scope = frame.pass("composite", {&out.composed});
-    program_.dispatch(out.composed.size(),
-                      {{"signal", in.signal},
-                       {"albedo", in.albedo},
-                       {"emission", in.emission},
-                       {"guides", in.guides}},
-                      {{"composed", out.composed}});
+    std::vector<Binding> reads{frame.block(), {"emission", in.emission}, {"guides", in.guides}};
+    for (std::size_t i = 0; i < in.terms.size(); ++i) {
+        reads.emplace_back(kSignalNames[i], in.terms[i].signal);
+        reads.emplace_back(kDemodulationNames[i], in.terms[i].demodulation);
+    }
+    const std::array<Binding, 1> writes{Binding{"composed", out.composed}};
+    shaders_.compute("post/composite.comp", definesFor(in.terms.size()))
+        .dispatch(out.composed.size(), reads, writes);
 }
 
 } // namespace afterglow

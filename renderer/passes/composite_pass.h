@@ -3,15 +3,20 @@
 #include "renderer/gl/shader_library.h"
 #include "renderer/passes/frame_context.h"
 
+#include <span>
+
 namespace afterglow {
 
-/// Signal times albedo plus emission: linear radiance. See shaders/post/composite.comp.
-/// Reads the frame block.
+/// Emission plus the sum of all signals, each times what it was divided by: linear radiance. See
+/// shaders/post/composite.comp. Reads the frame block.
 class CompositePass {
 public:
-    struct Inputs {
+    struct Term {
         const GpuTexture& signal;
-        const GpuTexture& albedo;
+        const GpuTexture& demodulation;
+    };
+    struct Inputs {
+        std::span<const Term> terms; ///< 1 or 2; any other number is std::logic_error
         const GpuTexture& emission;
         const GpuTexture& guides;
     };
@@ -23,7 +28,7 @@ public:
     void run(FrameContext& frame, const Inputs& in, const Outputs& out);
 
 private:
-    ComputeProgram& program_;
+    ShaderLibrary& shaders_;
 };
 
 } // namespace afterglow

@@ -13,7 +13,8 @@ void ForwardProjectPass::run(FrameContext& frame, const SceneGpu& scene, const I
         frame.pass("forward projection", {&out.visibility, &out.seeds, &out.samples});
     out.owners.clear();
     claim_.dispatch(out.owners.size(),
-                    {{"previousVisibility", in.previousVisibility},
+                    {frame.block(),
+                     {"previousVisibility", in.previousVisibility},
                      {"previousSeeds", in.previousSeeds},
                      {"visibility", in.visibility},
                      {"vertices", scene.vertices},
@@ -22,14 +23,11 @@ void ForwardProjectPass::run(FrameContext& frame, const SceneGpu& scene, const I
                     {{"owners", out.owners}, {"claims", out.claims}});
     ComputeProgram& merge = &in.visibility == &out.visibility ? merge_ : mergeExtra_;
     merge.dispatch(out.owners.size(),
-                   {{"owners", out.owners},
+                   {frame.block(),
+                    {"owners", out.owners},
                     {"claims", out.claims},
                     {"previousVisibility", in.previousVisibility},
-                    {"previousSeeds", in.previousSeeds},
-                    {"previousRaw", in.previousRaw},
-                    {"vertices", scene.vertices},
-                    {"triangles", scene.triangles},
-                    {"instances", scene.instances}},
+                    {"previousSeeds", in.previousSeeds}},
                    {{"visibility", out.visibility},
                     {"seeds", out.seeds},
                     {"samples", out.samples},

@@ -15,7 +15,6 @@ public:
     struct Inputs {
         const GpuTexture& previousVisibility;
         const GpuTexture& previousSeeds;
-        const GpuTexture& previousRaw;
         const GpuTexture& visibility; ///< of this frame, before anything is merged into it
     };
     struct Outputs {
@@ -23,7 +22,7 @@ public:
         GpuTexture& seeds;      ///< likewise
         GpuTexture& owners;     ///< scratch
         GpuTexture& claims;     ///< scratch
-        GpuTexture& samples;
+        GpuTexture& samples;    ///< which pixel of the last frame landed where; RGBA32UI
         GpuTexture& counters;
     };
 

@@ -18,6 +18,12 @@ PassScope::Report::~Report() {
         listener->passDone(name, {made.data(), count});
 }
 
+Binding FrameContext::block() const {
+    if (!uniforms)
+        throw std::logic_error("a pass of a frame runs without the frame's uniform block");
+    return {"Frame", *uniforms};
+}
+
 Defines definesOf(Kernel kernel) {
     return {{"KERNEL_RADIUS", kernel == Kernel::B3Spline5x5 ? "2" : "1"}};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/gl/gpu_timer.h"
+#include "renderer/gl/program.h"
 #include "renderer/gl/shader_source.h"
 #include "renderer/gl/texture.h"
 
@@ -51,6 +52,18 @@ struct FrameContext {
     GpuTimer& timer;
     PassListener* listener = nullptr;
     std::string prefix{}; ///< of the names of passes, where the same ones run more than once
+    const GpuBuffer* uniforms = nullptr; ///< shared/frame.h; of passes that need no frame none
+
+    /// The frame's uniform block, for a dispatch.
+    Binding block() const;
+
+    /// The same for the passes of one signal; empty: there is only one.
+    FrameContext forSignal(std::string_view name) const {
+        FrameContext context = *this;
+        if (!name.empty())
+            context.prefix += std::string(name) + " ";
+        return context;
+    }
 
     [[nodiscard]] PassScope pass(std::string_view name,
                                  std::initializer_list<const GpuTexture*> made) const {

@@ -2,6 +2,14 @@
 
 namespace afterglow {
 
+StrataPass::StrataPass(ShaderLibrary& shaders) : program_(shaders.compute("denoise/strata.comp")) {}
+
+void StrataPass::run(FrameContext& frame, const Inputs& in, const Outputs& out) {
+    const auto scope = frame.pass("strata", {&out.strataGuides, &out.strataSlope});
+    program_.dispatch(out.strataGuides.size(), {{"guides", in.guides}, {"slope", in.slope}},
+                      {{"strataGuides", out.strataGuides}, {"strataSlope", out.strataSlope}});
+}
+
 GradientPass::GradientPass(ShaderLibrary& shaders)
     : merged_(shaders.compute("denoise/gradient.comp")),
       extra_(shaders.compute("denoise/gradient.comp", {{"EXTRA_SAMPLES", "1"}})) {}
@@ -9,22 +17,21 @@ GradientPass::GradientPass(ShaderLibrary& shaders)
 void GradientPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                        const gpu::GradientParams& params) {
     const auto scope = frame.pass("gradient", {&out.gradient});
-    const auto dispatch = [&](ComputeProgram& program, std::initializer_list<Binding> reads) {
-        program.dispatch(out.gradient.size(), params, reads,
-                         {{"gradient", out.gradient},
-                          {"strataGuides", out.strataGuides},
-                          {"strataSlope", out.strataSlope}});
-    };
     if (in.sampleRaw)
-        dispatch(extra_, {{"raw", in.raw},
-                          {"samples", in.samples},
-                          {"guides", in.guides},
-                          {"slope", in.slope},
-                          {"sampleRaw", *in.sampleRaw}});
+        extra_.dispatch(out.gradient.size(), params,
+                        {{"raw", in.raw},
+                         {"previousRaw", in.previousRaw},
+                         {"samples", in.samples},
+                         {"guides", in.guides},
+                         {"sampleRaw", *in.sampleRaw}},
+                        {{"gradient", out.gradient}});
     else
-        dispatch(
-            merged_,
-            {{"raw", in.raw}, {"samples", in.samples}, {"guides", in.guides}, {"slope", in.slope}});
+        merged_.dispatch(out.gradient.size(), params,
+                         {{"raw", in.raw},
+                          {"previousRaw", in.previousRaw},
+                          {"samples", in.samples},
+                          {"guides", in.guides}},
+                         {{"gradient", out.gradient}});
 }
 
 GradientAtrousPass::GradientAtrousPass(ShaderLibrary& shaders, Kernel kernel)

@@ -6,21 +6,40 @@
 
 namespace afterglow {
 
-/// The temporal gradient at each stratum's sample, and the guides of the stratum.
-/// Schied et al. 2018, section 4.2. See shaders/denoise/gradient.comp and docs/pipeline.md.
+/// Normal, depth and slope of each stratum: the guides of all filters on their grid. See
+/// shaders/denoise/strata.comp and docs/pipeline.md.
+class StrataPass {
+public:
+    struct Inputs {
+        const GpuTexture& guides;
+        const GpuTexture& slope;
+    };
+    struct Outputs {
+        GpuTexture& strataGuides; ///< as guides, per stratum
+        GpuTexture& strataSlope;  ///< as slope, per stratum
+    };
+
+    explicit StrataPass(ShaderLibrary& shaders);
+    void run(FrameContext& frame, const Inputs& in, const Outputs& out);
+
+private:
+    ComputeProgram& program_;
+};
+
+/// The temporal gradient of a signal at each stratum's sample, and mean and variance of the signal
+/// in the stratum. Schied et al. 2018, section 4.2. See shaders/denoise/gradient.comp and
+/// docs/pipeline.md.
 class GradientPass {
 public:
     struct Inputs {
         const GpuTexture& raw;
+        const GpuTexture& previousRaw;
         const GpuTexture& samples;
         const GpuTexture& guides;
-        const GpuTexture& slope;
         const GpuTexture* sampleRaw = nullptr; ///< per stratum; empty: the samples are in `raw`
     };
     struct Outputs {
-        GpuTexture& gradient;     ///< delta, Delta, mean luminance, variance of luminance
-        GpuTexture& strataGuides; ///< as guides, per stratum
-        GpuTexture& strataSlope;  ///< as slope, per stratum
+        GpuTexture& gradient; ///< delta, Delta, mean luminance, variance of luminance
     };
 
     explicit GradientPass(ShaderLibrary& shaders);

@@ -11,8 +11,9 @@ void LightingPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs&
     };
     // A program has among its inputs what its rays need, and nothing else.
     if (!rays.ambientOcclusion)
-        trace({{"SHADOWS", "1"}}, {{"surface", in.surface},
-                                   {"guides", in.guides},
+        trace({{"SHADOWS", "1"}}, {frame.block(),
+                                   {"surface", in.surfaces.surface},
+                                   {"guides", in.surfaces.guides},
                                    {"seeds", in.seeds},
                                    {"noiseTile", scene.noiseTile},
                                    {"lightTriangles", scene.lightTriangles},
@@ -21,9 +22,10 @@ void LightingPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs&
                                    {"bvhTriangles", scene.bvhTriangles},
                                    {"bvhInstances", scene.bvhInstances}});
     else if (!rays.shadows)
-        trace({{"AMBIENT_OCCLUSION", "1"}}, {{"visibility", in.visibility},
-                                             {"surface", in.surface},
-                                             {"guides", in.guides},
+        trace({{"AMBIENT_OCCLUSION", "1"}}, {frame.block(),
+                                             {"visibility", in.surfaces.visibility},
+                                             {"surface", in.surfaces.surface},
+                                             {"guides", in.surfaces.guides},
                                              {"seeds", in.seeds},
                                              {"noiseTile", scene.noiseTile},
                                              {"instances", scene.instances},
@@ -32,9 +34,10 @@ void LightingPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs&
                                              {"bvhInstances", scene.bvhInstances}});
     else
         trace({{"SHADOWS", "1"}, {"AMBIENT_OCCLUSION", "1"}},
-              {{"visibility", in.visibility},
-               {"surface", in.surface},
-               {"guides", in.guides},
+              {frame.block(),
+               {"visibility", in.surfaces.visibility},
+               {"surface", in.surfaces.surface},
+               {"guides", in.surfaces.guides},
                {"seeds", in.seeds},
                {"noiseTile", scene.noiseTile},
                {"instances", scene.instances},

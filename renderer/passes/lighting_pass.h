@@ -3,8 +3,7 @@
 #include "renderer/gl/shader_library.h"
 #include "renderer/passes/frame_context.h"
 #include "renderer/resources/scene_gpu.h"
-
-#include <array>
+#include "renderer/resources/surfaces.h"
 
 namespace afterglow {
 
@@ -13,9 +12,7 @@ namespace afterglow {
 class LightingPass {
 public:
     struct Inputs {
-        const GpuTexture& visibility;
-        const GpuTexture& surface;
-        const GpuTexture& guides;
+        const Surfaces& surfaces;
         const GpuTexture& seeds;
     };
     struct Outputs {
@@ -24,6 +21,7 @@ public:
     };
     struct Rays {
         bool shadows = true, ambientOcclusion = true; ///< at least one
+        bool operator==(const Rays&) const = default;
     };
 
     explicit LightingPass(ShaderLibrary& shaders) : shaders_(shaders) {}

@@ -11,18 +11,19 @@ namespace afterglow {
 class ReferencePass {
 public:
     struct Sums {
-        GpuTexture& seeds; ///< become those of the next sample
-        GpuTexture& sum;   ///< RGBA32F: rgb of the signal, square of its luminance
-        GpuTexture& lost;  ///< RGBA32F: what rounding has taken from it
+        GpuTexture& sum;  ///< RGBA32F: rgb of the signal, square of its luminance
+        GpuTexture& lost; ///< RGBA32F: what rounding has taken from it
     };
 
     explicit ReferencePass(ShaderLibrary& shaders);
-    void add(FrameContext& frame, const GpuTexture& raw, const Sums& to);
+    /// `seeds`, where they are given, become those of the next sample.
+    void add(FrameContext& frame, const GpuTexture& raw, const Sums& to, GpuTexture* seeds);
     /// rgb: mean signal; a: variance of one sample's luminance.
     void mean(FrameContext& frame, const GpuTexture& sum, int samples, GpuTexture& mean);
 
 private:
     ComputeProgram& accumulate_;
+    ComputeProgram& accumulateLast_;
     ComputeProgram& mean_;
 };
 

@@ -5,23 +5,23 @@ namespace afterglow {
 SurfacePass::SurfacePass(ShaderLibrary& shaders)
     : program_(shaders.compute("scene/surface.comp")) {}
 
-void SurfacePass::run(FrameContext& frame, const SceneGpu& scene, const Inputs& in,
-                      const Outputs& out) {
-    const auto scope = frame.pass("surface", {&out.surface, &out.guides, &out.slope, &out.motion,
-                                              &out.albedo, &out.emission});
-    program_.dispatch(out.surface.size(),
-                      {{"visibility", in.visibility},
+void SurfacePass::run(FrameContext& frame, const SceneGpu& scene, Surfaces& s) {
+    const auto scope =
+        frame.pass("surface", {&s.surface, &s.guides, &s.slope, &s.motion, &s.albedo, &s.emission});
+    program_.dispatch(s.size(),
+                      {frame.block(),
+                       {"visibility", s.visibility},
                        {"vertices", scene.vertices},
                        {"triangles", scene.triangles},
                        {"instances", scene.instances},
                        {"materials", scene.materials},
                        {"lightScales", scene.lightScales}},
-                      {{"surface", out.surface},
-                       {"guides", out.guides},
-                       {"slope", out.slope},
-                       {"motion", out.motion},
-                       {"albedo", out.albedo},
-                       {"emission", out.emission}});
+                      {{"surface", s.surface},
+                       {"guides", s.guides},
+                       {"slope", s.slope},
+                       {"motion", s.motion},
+                       {"albedo", s.albedo},
+                       {"emission", s.emission}});
 }
 
 } // namespace afterglow

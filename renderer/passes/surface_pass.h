@@ -3,6 +3,7 @@
 #include "renderer/gl/shader_library.h"
 #include "renderer/passes/frame_context.h"
 #include "renderer/resources/scene_gpu.h"
+#include "renderer/resources/surfaces.h"
 
 namespace afterglow {
 
@@ -10,20 +11,9 @@ namespace afterglow {
 /// block.
 class SurfacePass {
 public:
-    struct Inputs {
-        const GpuTexture& visibility;
-    };
-    struct Outputs {
-        GpuTexture& surface;
-        GpuTexture& guides;
-        GpuTexture& slope;
-        GpuTexture& motion;
-        GpuTexture& albedo;
-        GpuTexture& emission;
-    };
-
     explicit SurfacePass(ShaderLibrary& shaders);
-    void run(FrameContext& frame, const SceneGpu& scene, const Inputs& in, const Outputs& out);
+    /// Makes all images of `surfaces` from its visibility samples.
+    void run(FrameContext& frame, const SceneGpu& scene, Surfaces& surfaces);
 
 private:
     ComputeProgram& program_;

@@ -10,7 +10,8 @@ void TemporalPass::run(FrameContext& frame, const Inputs& in, const Outputs& out
     const auto scope = frame.pass("temporal", {&out.accumulated, &out.moments, &out.control});
     program_.dispatch(
         out.accumulated.size(), params,
-        {{"raw", in.raw},
+        {frame.block(),
+         {"raw", in.raw},
          {"visibility", in.visibility},
          {"previousVisibility", in.previousVisibility},
          {"guides", in.guides},

@@ -7,7 +7,8 @@ TonemapPass::TonemapPass(ShaderLibrary& shaders) : program_(shaders.compute("pos
 void TonemapPass::run(FrameContext& frame, const GpuTexture& composed, GpuTexture& display,
                       const gpu::TonemapParams& params) {
     const auto scope = frame.pass("tone map", {&display});
-    program_.dispatch(display.size(), params, {{"composed", composed}}, {{"display", display}});
+    program_.dispatch(display.size(), params, {frame.block(), {"composed", composed}},
+                      {{"display", display}});
 }
 
 } // namespace afterglow

@@ -17,22 +17,24 @@ VisibilityPass::VisibilityPass(ShaderLibrary& shaders)
 void VisibilityPass::run(FrameContext& frame, const SceneGpu& scene, const Outputs& out) {
     {
         const auto scope = frame.pass("visibility", {&out.ids});
-        rasterize(scene, out.framebuffer);
+        rasterize(frame, scene, out.framebuffer);
     }
     const auto scope = frame.pass("resolve", {&out.visibility, &out.seeds});
-    resolve(scene, out);
+    resolve(frame, scene, out);
 }
 
-void VisibilityPass::resolve(const SceneGpu& scene, const Outputs& out) {
+void VisibilityPass::resolve(const FrameContext& frame, const SceneGpu& scene, const Outputs& out) {
     resolve_.dispatch(out.ids.size(),
-                      {{"ids", out.ids},
+                      {frame.block(),
+                       {"ids", out.ids},
                        {"vertices", scene.vertices},
                        {"triangles", scene.triangles},
                        {"instances", scene.instances}},
                       {{"visibility", out.visibility}, {"seeds", out.seeds}});
 }
 
-void VisibilityPass::rasterize(const SceneGpu& scene, const Framebuffer& framebuffer) {
+void VisibilityPass::rasterize(const FrameContext& frame, const SceneGpu& scene,
+                               const Framebuffer& framebuffer) {
     framebuffer.bind();
     framebuffer.clearColor(0, glm::uvec4(0u));
     framebuffer.clearDepth(0.0f); // depth is reversed: 0 is far
@@ -44,7 +46,7 @@ void VisibilityPass::rasterize(const SceneGpu& scene, const Framebuffer& framebu
     glVertexArrayVertexBuffer(vertexArray_.id(), 0, scene.vertexBuffer().id(), 0,
                               sizeof(gpu::Vertex));
     glVertexArrayElementBuffer(vertexArray_.id(), scene.indexBuffer().id());
-    raster_.use();
+    raster_.use({frame.block()});
     for (const SceneGpu::Draw& draw : scene.draws()) {
         // glTF 2.0, section 3.7.4: back faces of single-sided materials are culled; a mirroring
         // transform turns front into back.

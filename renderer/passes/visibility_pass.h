@@ -22,8 +22,9 @@ public:
     void run(FrameContext& frame, const SceneGpu& scene, const Outputs& out);
 
 private:
-    void rasterize(const SceneGpu& scene, const Framebuffer& framebuffer);
-    void resolve(const SceneGpu& scene, const Outputs& out);
+    void rasterize(const FrameContext& frame, const SceneGpu& scene,
+                   const Framebuffer& framebuffer);
+    void resolve(const FrameContext& frame, const SceneGpu& scene, const Outputs& out);
 
     RasterProgram& raster_;
     ComputeProgram& resolve_;

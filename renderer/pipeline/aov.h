@@ -3,25 +3,21 @@
 #include "renderer/pipeline/renderer.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace afterglow {
 
-/// An arbitrary output variable: one image of the frame that can be looked at and written to a
-/// file.
-struct AovInfo {
-    std::string_view name;
-    std::string_view meaning;  ///< with its unit
-    std::string_view channels; ///< names of the channels in a file: "RGB", "Y", "XYZ", "XY"
-    bool perStratum = false;   ///< ceil(W/3) x ceil(H/3) instead of W x H
-};
+/// The images of a frame that can be looked at: those of the frame itself, then those of filters.
 std::span<const AovInfo> aovs();
 
 /// UsageError names an unknown name and the nearest known.
 const AovInfo& aovByName(std::string_view name);
 
-/// Whether the filter makes it.
-bool isMadeBy(const AovInfo& aov, Filter filter, const DenoiserSettings& settings);
+/// Whether a frame with this filter has it.
+bool isMadeBy(const AovInfo& aov, const FilterSettings& settings);
+/// Whether each signal of a frame has one of its own.
+bool isPerSignal(const AovInfo& aov);
 
 /// Where the frame keeps an AOV: AovInfo::channels.size() channels of a texture, from one on.
 struct AovSource {
@@ -29,10 +25,16 @@ struct AovSource {
     int channel = 0;
     bool isFloatBits = false; ///< integers that hold the bits of floats
 };
-/// In the last frame that was rendered, of the filter with this state.
-AovSource sourceOf(const Renderer& renderer, const AovInfo& aov, std::size_t state = 0);
+/// In the last frame that was rendered, of the filter with this state. One that the frame does not
+/// have is std::logic_error.
+AovSource sourceOf(const Renderer& renderer, const AovInfo& aov, std::size_t state = 0,
+                   std::size_t signal = 0);
 
 /// Reads it back from the last frame; unused channels are 0.
-Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov, std::size_t state = 0);
+Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov, std::size_t state = 0,
+                         std::size_t signal = 0);
+
+/// What a file of it is called: "raw", or "raw_ao" where a frame has several signals.
+std::string fileStem(const AovInfo& aov, const SignalInfo& signal, std::size_t signals);
 
 } // namespace afterglow

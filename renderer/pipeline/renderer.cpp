@@ -2,7 +2,6 @@
 
 #include "shared/counters.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -39,11 +38,10 @@ const SceneStats& Renderer::sceneStats() const {
 void Renderer::resize(glm::ivec2 size) {
     if (size == impl_->targets.size)
         return;
+    impl_->targets = {}; // before the new ones are made: both may be too much
     impl_->targets = RenderTargets(size);
-    impl_->signals = {};
+    impl_->states = {};
     impl_->converging.reset();
-    impl_->placed.reset();
-    impl_->lost = {};
     resetHistory();
 }
 
@@ -55,8 +53,22 @@ void Renderer::resetHistory() {
     impl_->frame.forget();
 }
 
+RanFilter Renderer::Impl::ranFilterOf(const FilterSettings& settings) {
+    RanFilter ran{settings, needsOf(settings), {}};
+    if (&familyOf(settings.filter) == &familyOf(Filter::Svgf))
+        ran.svgf = makePlan(settings);
+    return ran;
+}
+
+SignalFilter& Renderer::Impl::programsOf(const FilterFamily& family) {
+    std::unique_ptr<SignalFilter>& filter = programs[&family];
+    if (!filter)
+        filter = family.make(shaders);
+    return *filter;
+}
+
 // Poses, lights and the frame block.
-void Renderer::Impl::begin(const FrameInput& input, const Settings& settings) {
+void Renderer::Impl::begin(const FrameInput& input, const FrameSettings& settings) {
     const Pose pose = poseAt(scene, input.seconds);
     sceneGpu->update(scene, pose, previousPose.value_or(pose));
     previousPose = pose;
@@ -65,7 +77,7 @@ void Renderer::Impl::begin(const FrameInput& input, const Settings& settings) {
     gpu::FrameUniforms& u = frame.uniforms;
     // Without occlusion rays there are no surroundings: the lights are all the light there is.
     u.ambient =
-        Signal(settings.lighting.signal) == Signal::Shadows ? glm::vec3(0.0f) : scene.ambient;
+        seesSurroundings(Signal(settings.lighting.signal)) ? scene.ambient : glm::vec3(0.0f);
     u.extent = sceneGpu->extent();
     u.frame = input.frame;
     u.sampleIndex = input.frame;
@@ -85,113 +97,177 @@ void Renderer::Impl::setLights(const FrameInput& input) {
     sceneGpu->setLightScales(scales);
 }
 
-// One sample of the signal on these surfaces.
-void Renderer::Impl::trace(const FrameContext& outer, const Settings& settings,
-                           const Traced& traced, GpuTexture& raw) {
-    FrameContext context = outer;
-    const auto signalKind = Signal(settings.lighting.signal);
-    lighting.run(context, *sceneGpu,
-                 {traced.visibility, traced.surface, traced.guides, traced.seeds},
-                 {raw, targets.counters},
-                 {.shadows = signalKind != Signal::AmbientOcclusion,
-                  .ambientOcclusion = signalKind != Signal::Shadows});
+void Renderer::Impl::setSignals(const FrameSettings& settings) {
+    signals = signalsOf(Signal(settings.lighting.signal));
+    targets.setSignals(signals.size());
 }
 
-// What forward projection set beside the picture, shaded.
-void Renderer::Impl::traceExtraSamples(FrameContext& outer, const Settings& settings) {
-    FrameContext context{outer.timer, outer.listener, "extra "};
-    ExtraSamples& x = targets.extra;
-    surface.run(context, *sceneGpu, {x.visibility},
-                {x.surface, x.guides, x.slope, x.motion, x.albedo, x.emission});
-    trace(context, settings, {x.visibility, x.surface, x.guides, x.seeds}, x.raw);
-}
-
-// Filters that did not run in the last frame go on where the first one that did has come to.
 void Renderer::Impl::startStates(std::span<const FilterRun> runs) {
-    const auto ran = [&](std::size_t state) { return signals[state] != nullptr; };
-    std::size_t donor = 0;
-    while (donor < kFilterStates && !ran(donor))
-        ++donor;
     std::array<bool, kFilterStates> taken{};
     for (const FilterRun& run : runs) {
         if (run.state >= kFilterStates || std::exchange(taken[run.state], true))
             throw std::logic_error("Renderer: each filter needs a state of its own");
-        FilterTargets& own = targets.filters[run.state];
-        if (own.empty())
-            own = FilterTargets(targets.size);
-        if (donor < kFilterStates && !ran(run.state)) {
-            own.color.current().copyFrom(targets.filters[donor].color.current());
-            own.moments.current().copyFrom(targets.filters[donor].moments.current());
-        }
+        startState(run.state, familyOf(run.settings.filter));
     }
 }
 
-const GpuTexture& Renderer::Impl::present(FrameContext& context, FilterTargets& filter,
-                                          const GpuTexture& newest, const Settings& settings) {
+// Filters that did not run in the last frame go on where the first one that did has come to.
+void Renderer::Impl::startState(std::size_t state, const FilterFamily& family) {
+    FilterTargets& own = targets.filters[state];
+    if (own.empty())
+        own = FilterTargets(targets.size);
+    const auto isOfFamily = [&](std::size_t other) {
+        return states[other].ran && &familyOf(states[other].ran->settings.filter) == &family;
+    };
+    if (!own.own.empty() && own.own[0].declared().data() != family.images.data())
+        own.own.clear();
+    const std::size_t there = own.own.size();
+    while (own.own.size() < signals.size())
+        own.own.emplace_back(family.images, targets.size);
+    const bool goesOn = isOfFamily(state);
+    std::size_t donor = 0;
+    while (donor < kFilterStates && !isOfFamily(donor))
+        ++donor;
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        if (goesOn && i < there)
+            continue;
+        const bool given =
+            donor < kFilterStates && donor != state && i < targets.filters[donor].own.size();
+        if (!given) {
+            if (states[state].ran || i < there)
+                own.own[i].clearHistories(); // of another filter, or of long ago
+            continue;
+        }
+        const auto from = targets.filters[donor].own[i].kept();
+        const auto to = own.own[i].kept();
+        for (std::size_t image = 0; image < to.size(); ++image)
+            to[image]->copyFrom(*from[image]);
+    }
+}
+
+void Renderer::Impl::carrySamples(FrameContext& context, bool beside) {
     RenderTargets& t = targets;
-    signals[std::size_t(&filter - t.filters.data())] = &newest;
-    composite.run(context, {newest, t.albedo, t.emission, t.guides.current()}, {filter.composed});
-    tonemap.run(context, filter.composed, filter.display,
+    if (beside && t.sampleSurfaces.empty()) {
+        t.sampleSurfaces = Surfaces(t.strata, "sample ");
+        t.sampleSeeds = GpuTexture("sample seeds", PixelFormat::R32UI, t.strata);
+    }
+    forwardProject.run(
+        context, *sceneGpu, {t.previousVisibility, t.seeds.previous(), t.surfaces.visibility},
+        {beside ? t.sampleSurfaces.visibility : t.surfaces.visibility,
+         beside ? t.sampleSeeds : t.seeds.current(), t.owners, t.claims, t.samples, t.counters});
+}
+
+void Renderer::Impl::trace(const FrameContext& outer, const Surfaces& surfaces,
+                           const GpuTexture& seeds, GpuTexture& (*raw)(SignalTargets&)) {
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        FrameContext context = outer.forSignal(signals.size() > 1 ? signals[i].name : "");
+        lighting.run(context, *sceneGpu, {surfaces, seeds},
+                     {raw(targets.signals[i]), targets.counters}, signals[i].rays);
+    }
+}
+
+// What forward projection set beside the picture, shaded.
+void Renderer::Impl::traceSamplesBeside(const FrameContext& outer) {
+    FrameContext context = outer;
+    context.prefix = "extra ";
+    for (SignalTargets& signal : targets.signals)
+        if (signal.sampleRaw.size().x == 0)
+            signal.sampleRaw = GpuTexture("sample raw", PixelFormat::RGBA32F, targets.strata);
+    surface.run(context, *sceneGpu, targets.sampleSurfaces);
+    trace(context, targets.sampleSurfaces, targets.sampleSeeds,
+          [](SignalTargets& signal) -> GpuTexture& { return signal.sampleRaw; });
+}
+
+// From each signal to the filtered one.
+void Renderer::Impl::filter(const FrameContext& context, const FilterRun& run, bool beside) {
+    RenderTargets& t = targets;
+    SignalFilter& programsOfFilter = programsOf(familyOf(run.settings.filter));
+    State& state = states[run.state];
+    state.ran = ranFilterOf(run.settings);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        FrameContext own = context.forSignal(signals.size() > 1 ? signals[i].name : "");
+        const SignalTargets& signal = t.signals[i];
+        state.results[i] =
+            &programsOfFilter.run(own,
+                                  {.surfaces = t.surfaces,
+                                   .previousVisibility = t.previousVisibility,
+                                   .previousGuides = t.previousGuides,
+                                   .samples = t.samples,
+                                   .strataGuides = t.strataGuides,
+                                   .strataSlope = t.strataSlope,
+                                   .signal = signal,
+                                   .newest = signal.raw.current(),
+                                   .samplesBeside = beside},
+                                  run.settings, FilterImages(t.filters[run.state].own[i]));
+    }
+}
+
+const GpuTexture& Renderer::Impl::present(FrameContext& context, std::size_t state,
+                                          const FrameSettings& settings) {
+    RenderTargets& t = targets;
+    FilterTargets& shown = t.filters[state];
+    std::vector<CompositePass::Term> terms;
+    for (std::size_t i = 0; i < signals.size(); ++i)
+        terms.push_back({*states[state].results[i], t.surfaces.albedo});
+    composite.run(context, {terms, t.surfaces.emission, t.surfaces.guides}, {shown.composed});
+    tonemap.run(context, shown.composed, shown.display,
                 {std::exp2(settings.display.exposure), 0.0f, 0.0f, 0.0f});
-    return filter.display;
+    return shown.display;
 }
 
 const GpuTexture& Renderer::render(const FrameInput& input, const Settings& settings) {
     const FilterRun run{0, settings};
-    render(input, {&run, 1});
-    return impl_->targets.filters[0].display;
+    render(input, settings, {&run, 1});
+    return display();
 }
 
 // The order of a frame.
-void Renderer::render(const FrameInput& input, std::span<const FilterRun> runs) {
+void Renderer::render(const FrameInput& input, const FrameSettings& settings,
+                      std::span<const FilterRun> runs) {
     impl_->requireScene();
     if (runs.empty())
         throw std::logic_error("Renderer: a frame needs a filter");
     Impl& self = *impl_;
     RenderTargets& t = self.targets;
     self.converging.reset();
+    self.setSignals(settings);
     self.startStates(runs);
     // The frame before becomes the history. At the start and not at the end of a frame, so that
     // what was just rendered can be looked at as "current".
     t.swapHistories();
     self.timer.beginFrame();
-    const Settings& settings = runs.front().settings;
     self.begin(input, settings);
 
-    FrameContext context{self.timer, self.listener};
-    const auto placement = SamplePlacement(settings.lighting.gradientSamples);
-    const bool extra = placement == SamplePlacement::Extra;
-    bool carries = false, usesLambda = false;
-    std::vector<DenoisePlan> plans;
+    FrameContext context = self.context();
+    context.listener = self.listener;
+    const bool beside =
+        SamplePlacement(settings.lighting.gradientSamples) == SamplePlacement::Extra;
+    FilterNeeds needs;
     for (const FilterRun& run : runs) {
-        plans.push_back(makePlan(run.settings.filter, run.settings.denoiser));
-        carries = carries || plans.back().carrySamples;
-        usesLambda = usesLambda || plans.back().useLambda;
+        const FilterNeeds own = needsOf(run.settings);
+        needs.samples = needs.samples || own.samples;
+        needs.lambda = needs.lambda || own.lambda;
     }
 
     self.visibility.run(context, *self.sceneGpu,
-                        {t.framebuffer, t.ids, t.visibility.current(), t.seeds.current()});
-    if (carries) {
-        if (extra && t.extra.empty())
-            t.extra = ExtraSamples(t.strata);
-        self.denoiser.carrySamples(context, *self.sceneGpu, t, placement);
-    }
-    self.surface.run(context, *self.sceneGpu, {t.visibility.current()},
-                     {t.surface, t.guides.current(), t.slope, t.motion, t.albedo, t.emission});
-    self.trace(context, settings,
-               {t.visibility.current(), t.surface, t.guides.current(), t.seeds.current()},
-               t.raw.current());
-    if (extra && usesLambda)
-        self.traceExtraSamples(context, settings);
+                        {t.framebuffer, t.ids, t.surfaces.visibility, t.seeds.current()});
+    if (needs.samples)
+        self.carrySamples(context, beside);
+    self.surface.run(context, *self.sceneGpu, t.surfaces);
+    if (needs.lambda)
+        self.strata.run(context, {t.surfaces.guides, t.surfaces.slope},
+                        {t.strataGuides, t.strataSlope});
+    self.trace(context, t.surfaces, t.seeds.current(),
+               [](SignalTargets& signal) -> GpuTexture& { return signal.raw.current(); });
+    if (beside && needs.lambda)
+        self.traceSamplesBeside(context);
 
-    self.signals = {};
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        FilterTargets& own = t.filters[runs[i].state];
+    self.states = {};
+    for (const FilterRun& run : runs) {
         if (runs.size() > 1)
-            context.prefix = std::string(1, char('A' + runs[i].state)) + " ";
-        const GpuTexture& clean =
-            self.denoiser.run(context, plans[i], t, own, runs[i].settings.denoiser, placement);
-        self.present(context, own, clean, settings);
+            context.prefix = std::string(1, char('A' + run.state)) + " ";
+        self.filter(context, run, beside);
+        self.present(context, run.state, settings);
     }
 
     self.frame.end();
@@ -202,63 +278,46 @@ const RenderTargets& Renderer::targets() const {
     return impl_->targets;
 }
 
-const GpuTexture& Renderer::filteredSignal(std::size_t state) const {
-    const GpuTexture* const signal = impl_->signals.at(state);
-    if (!signal)
+std::span<const SignalInfo> Renderer::signals() const {
+    return impl_->signals;
+}
+
+const GpuTexture& Renderer::filteredSignal(std::size_t state, std::size_t signal) const {
+    const GpuTexture* const result = impl_->states.at(state).results.at(signal);
+    if (!result)
         throw std::logic_error("Renderer: no frame has been rendered");
-    return *signal;
+    return *result;
 }
 
-bool Renderer::hasRun(std::size_t state) const {
-    return state < kFilterStates && impl_->signals[state] != nullptr;
+// All light is reflected by diffuse surfaces yet.
+const GpuTexture& Renderer::demodulation(std::size_t) const {
+    return impl_->targets.surfaces.albedo;
 }
 
-std::size_t HistoryCheckpoint::bytes() const {
-    std::size_t sum = visibility.bytes() + seeds.bytes() + guides.bytes() + raw.bytes();
-    for (const auto& filter : filters)
-        if (filter)
-            sum += filter->color.bytes() + filter->moments.bytes();
-    return sum;
+const RanFilter* Renderer::ran(std::size_t state) const {
+    if (state >= kFilterStates || !impl_->states[state].ran)
+        return nullptr;
+    return &*impl_->states[state].ran;
 }
 
-HistoryCheckpoint Renderer::checkpoint() const {
-    impl_->requireScene();
-    const RenderTargets& t = impl_->targets;
-    HistoryCheckpoint kept{.visibility = t.visibility.current().copy(),
-                           .seeds = t.seeds.current().copy(),
-                           .guides = t.guides.current().copy(),
-                           .raw = t.raw.current().copy(),
-                           .filters = {},
-                           .matrices = impl_->frame.previous(),
-                           .pose = impl_->previousPose};
-    for (std::size_t i = 0; i < kFilterStates; ++i)
-        if (impl_->signals[i])
-            kept.filters[i] = {t.filters[i].color.current().copy(),
-                               t.filters[i].moments.current().copy()};
-    return kept;
+const GpuTexture& Renderer::display(std::size_t state) const {
+    return impl_->targets.filters.at(state).display;
 }
 
-void Renderer::restore(const HistoryCheckpoint& kept) {
-    impl_->requireScene();
-    RenderTargets& t = impl_->targets;
-    impl_->converging.reset();
-    t.visibility.current().copyFrom(kept.visibility);
-    t.seeds.current().copyFrom(kept.seeds);
-    t.guides.current().copyFrom(kept.guides);
-    t.raw.current().copyFrom(kept.raw);
-    impl_->signals = {};
-    for (std::size_t i = 0; i < kFilterStates; ++i) {
-        if (!kept.filters[i])
+Renderer::FilterImage Renderer::filterImage(std::string_view aov, std::size_t state,
+                                            std::size_t signal) const {
+    const RanFilter* const filter = ran(state);
+    if (!filter)
+        return {};
+    for (const FilterAov& row : familyOf(filter->settings.filter).aovs) {
+        if (row.info.name != aov || !row.isMade(filter->settings))
             continue;
-        FilterTargets& own = t.filters[i];
-        if (own.empty())
-            own = FilterTargets(t.size);
-        own.color.current().copyFrom(kept.filters[i]->color);
-        own.moments.current().copyFrom(kept.filters[i]->moments);
-        impl_->signals[i] = &own.color.current(); // until the next frame has filtered
+        const std::size_t image = row.image(filter->settings);
+        return {image == kFilterResult ? impl_->states[state].results.at(signal)
+                                       : impl_->targets.filters[state].own.at(signal).find(image),
+                row.channel};
     }
-    impl_->frame.setPrevious(kept.matrices);
-    impl_->previousPose = kept.pose;
+    return {};
 }
 
 void Renderer::setListener(PassListener* listener) {

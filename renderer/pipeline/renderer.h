@@ -1,14 +1,13 @@
 #pragma once
 
-#include "renderer/passes/composite_pass.h"
-#include "renderer/passes/lighting_pass.h"
-#include "renderer/passes/reference_pass.h"
-#include "renderer/passes/surface_pass.h"
-#include "renderer/passes/tonemap_pass.h"
-#include "renderer/passes/visibility_pass.h"
-#include "renderer/pipeline/denoiser.h"
+#include "renderer/filters/svgf_plan.h"
+#include "renderer/gl/gpu_timer.h"
+#include "renderer/passes/frame_context.h"
 #include "renderer/pipeline/light_state.h"
+#include "renderer/pipeline/settings.h"
 #include "renderer/resources/frame_data.h"
+#include "renderer/resources/render_targets.h"
+#include "renderer/scene/scene.h"
 
 #include <memory>
 #include <optional>
@@ -37,18 +36,27 @@ struct SceneStats {
     double bvhBuildMilliseconds = 0.0;
 };
 
-/// One of the filters that run on the raw signal of a frame.
+/// One of the filters that run on the signals of a frame.
 struct FilterRun {
     std::size_t state = 0; ///< whose histories it has: one of kFilterStates
-    Settings settings;
+    FilterSettings settings;
+};
+
+/// A filter that ran, with what it did.
+struct RanFilter {
+    FilterSettings settings;
+    FilterNeeds needs;
+    std::optional<SvgfPlan> svgf; ///< of a filter of that family
 };
 
 /// What a frame leaves for the next one: all histories, as textures of its own.
 struct HistoryCheckpoint {
     struct FilterHistory {
-        GpuTexture color, moments;
+        RanFilter ran;
+        std::vector<std::vector<GpuTexture>> images; ///< by signal
     };
-    GpuTexture visibility, seeds, guides, raw;
+    std::span<const SignalInfo> signals;
+    std::vector<GpuTexture> images;
     std::array<std::optional<FilterHistory>, kFilterStates> filters; ///< of those that ran
     std::optional<FrameData::Matrices> matrices;
     std::optional<Pose> pose;
@@ -69,7 +77,8 @@ public:
     const Scene& scene() const;
     const SceneStats& sceneStats() const;
 
-    /// Any size from 1x1 to the largest texture; clears all histories if the size changes.
+    /// Any size from 1x1 to the largest texture; clears all histories if the size changes. Error if
+    /// the images need more memory than the device has, as far as that is known.
     void resize(glm::ivec2 size);
     glm::ivec2 size() const;
     void resetHistory();
@@ -77,11 +86,12 @@ public:
     /// Renders one frame; returns the display image (RGBA8, sRGB-encoded, row 0 on top). The
     /// histories are those of state 0.
     const GpuTexture& render(const FrameInput& input, const Settings& settings);
-    /// Renders one frame whose raw signal several filters see, the same bits each; their states are
-    /// different ones. Lighting and exposure are those of the first run. A state that did not run
-    /// in the frame before starts with a copy of the histories of the lowest one that did. If
-    /// gradient samples are merged and one of the filters wants them, all see them.
-    void render(const FrameInput& input, std::span<const FilterRun> runs);
+    /// Renders one frame whose signals several filters see, the same bits each; their states are
+    /// different ones. A state that did not run in the frame before starts with a copy of the
+    /// histories of the lowest one that did, if that is of the same family. If gradient samples are
+    /// merged and one of the filters wants them, all see them.
+    void render(const FrameInput& input, const FrameSettings& settings,
+                std::span<const FilterRun> runs);
 
     /// What the last frame leaves for the next one. The same frames rendered again from it have the
     /// same bits.
@@ -92,31 +102,43 @@ public:
     /// Hears what each pass makes, from the next frame on; empty: nobody. Must outlive its use.
     void setListener(PassListener* listener);
 
-    /// A reference: the converged signal of one moment, from the same pixel-centre surface samples
-    /// that a frame has and many samples of the signal a pixel, summed in compensated 32-bit float.
-    /// begin, then add as often as wanted, then finish. All histories are lost.
-    void beginReference(const FrameInput& input, const Settings& settings);
+    /// A reference: the converged signals of one moment, from the same pixel-centre surface samples
+    /// that a frame has and many samples of each signal a pixel, summed in compensated 32-bit
+    /// float. begin, then add as often as wanted, then finish. All histories are lost.
+    void beginReference(const FrameInput& input, const FrameSettings& settings);
     /// The surfaces that `seen` shows, in the light of `world`: the visibility samples (instance,
     /// triangle, barycentrics) are those of the camera and the pose of `seen`; they are placed by
     /// the pose of `world` and lit by its lights, among its geometry. With the frame before as
     /// `world` this is what the surfaces of this frame reflected one frame ago: E f_{i-1} of
     /// [ASVGF]. Normals are turned to the camera of `seen`, and the seed is that of `seen`; the
-    /// camera of `world` is not used. Surfaces, guides, albedo and emission of targets() stay those
-    /// of `seen`.
-    void beginReference(const FrameInput& seen, const FrameInput& world, const Settings& settings);
+    /// camera of `world` is not used. The surfaces of targets() stay those of `seen`.
+    void beginReference(const FrameInput& seen, const FrameInput& world,
+                        const FrameSettings& settings);
     void addReferenceSamples(int count);
-    /// The mean so far as `filtered` and display image; alpha is the variance of one sample's
-    /// luminance.
+    /// The means so far as filteredSignal() of state 0, and the display image; alpha is the
+    /// variance of one sample's luminance.
     const GpuTexture& finishReference();
-    /// Makes a signal that was converged before the `filtered` and the display image, on the
-    /// surfaces of the last frame or beginReference(). Another size is std::logic_error.
-    const GpuTexture& showReference(const Image<glm::vec4>& signal, const Settings& settings);
+    /// Makes signals that were converged before those of state 0, and the display image, on the
+    /// surfaces of the last frame or beginReference(). Another size or number is std::logic_error.
+    const GpuTexture& showReference(std::span<const Image<glm::vec4>> signals,
+                                    const FrameSettings& settings);
 
     const RenderTargets& targets() const;
+    std::span<const SignalInfo> signals() const; ///< of the last frame or reference
     /// The denoised (or raw, or converged) demodulated signal of the last frame. A state that has
     /// not run is std::logic_error.
-    const GpuTexture& filteredSignal(std::size_t state = 0) const;
-    bool hasRun(std::size_t state) const; ///< in the last frame
+    const GpuTexture& filteredSignal(std::size_t state = 0, std::size_t signal = 0) const;
+    const GpuTexture& demodulation(std::size_t signal) const; ///< what its signal is to be times
+    /// The filter that ran in the last frame; none of a state that did not.
+    const RanFilter* ran(std::size_t state = 0) const;
+    const GpuTexture& display(std::size_t state = 0) const; ///< of the last frame
+    /// An image that can be looked at, of a filter that ran; none if it did not make it.
+    struct FilterImage {
+        const GpuTexture* texture = nullptr;
+        int channel = 0;
+    };
+    FilterImage filterImage(std::string_view aov, std::size_t state = 0,
+                            std::size_t signal = 0) const;
     FrameStats readStats() const; ///< waits for the GPU
     GpuTimer& timer();
 

@@ -2,43 +2,62 @@
 
 // What Renderer is made of. Seen by its own .cpp files alone.
 
+#include "renderer/passes/composite_pass.h"
+#include "renderer/passes/forward_project_pass.h"
+#include "renderer/passes/gradient_pass.h"
+#include "renderer/passes/reference_pass.h"
+#include "renderer/passes/surface_pass.h"
+#include "renderer/passes/tonemap_pass.h"
+#include "renderer/passes/visibility_pass.h"
 #include "renderer/pipeline/renderer.h"
 
+#include <map>
 #include <stdexcept>
 
 namespace afterglow {
 
 struct Renderer::Impl {
-    Impl(ShaderLibrary& shaders, const GlInfo& gl)
-        : timer(gl.softwareRasterizer), visibility(shaders), surface(shaders), lighting(shaders),
-          denoiser(shaders), composite(shaders), tonemap(shaders), reference(shaders) {}
+    Impl(ShaderLibrary& library, const GlInfo& gl)
+        : shaders(library), timer(gl.softwareRasterizer), visibility(shaders),
+          forwardProject(shaders), surface(shaders), lighting(shaders), strata(shaders),
+          composite(shaders), tonemap(shaders), reference(shaders) {
+        programsOf(familyOf(Filter::Svgf)); // compiled before the first frame
+    }
 
     void requireScene() const {
         if (!sceneGpu || targets.size.x == 0)
             throw std::logic_error("Renderer: setScene() and resize() come before a frame");
     }
-    void begin(const FrameInput& input, const Settings& settings);
+    FrameContext context() { return {.timer = timer, .uniforms = &frame.block()}; }
+    static RanFilter ranFilterOf(const FilterSettings& settings);
+    SignalFilter& programsOf(const FilterFamily& family);
+    void begin(const FrameInput& input, const FrameSettings& settings);
     void setLights(const FrameInput& input);
-    void findSurfaces(FrameContext& context);
-    void placeSurfaces(FrameContext& context, double seconds);
-    struct Traced { // what is lit, and by which random numbers
-        const GpuTexture &visibility, &surface, &guides, &seeds;
-    };
-    void trace(const FrameContext& context, const Settings& settings, const Traced& traced,
-               GpuTexture& raw);
-    void traceExtraSamples(FrameContext& context, const Settings& settings);
+    void setSignals(const FrameSettings& settings);
     void startStates(std::span<const FilterRun> runs);
-    const GpuTexture& present(FrameContext& context, FilterTargets& filter,
-                              const GpuTexture& signal, const Settings& settings);
+    void startState(std::size_t state, const FilterFamily& family);
 
+    void carrySamples(FrameContext& context, bool beside);
+    /// One sample of each signal on these surfaces, for each signal into `raw` of it.
+    void trace(const FrameContext& context, const Surfaces& surfaces, const GpuTexture& seeds,
+               GpuTexture& (*raw)(SignalTargets&));
+    void traceSamplesBeside(const FrameContext& context);
+    void filter(const FrameContext& context, const FilterRun& run, bool beside);
+    const GpuTexture& present(FrameContext& context, std::size_t state,
+                              const FrameSettings& settings);
+    void placeSurfaces(FrameContext& context, double seconds);
+
+    ShaderLibrary& shaders;
     GpuTimer timer;
     VisibilityPass visibility;
+    ForwardProjectPass forwardProject;
     SurfacePass surface;
     LightingPass lighting;
-    Denoiser denoiser;
+    StrataPass strata;
     CompositePass composite;
     TonemapPass tonemap;
     ReferencePass reference;
+    std::map<const FilterFamily*, std::unique_ptr<SignalFilter>> programs;
 
     Scene scene;
     SceneStats sceneStats;
@@ -47,27 +66,18 @@ struct Renderer::Impl {
     FrameData frame;
     RenderTargets targets;
     PassListener* listener = nullptr;
-    /// By state, of those that ran in the last frame.
-    std::array<const GpuTexture*, kFilterStates> signals{};
 
-    /// Surfaces somewhere else than where they are seen.
-    struct PlacedSurfaces {
-        explicit PlacedSurfaces(glm::ivec2 size)
-            : surface("placed surface", PixelFormat::RGBA32UI, size),
-              guides("placed guides", PixelFormat::RGBA32F, size),
-              slope("placed slope", PixelFormat::RG32F, size),
-              motion("placed motion", PixelFormat::RGBA32F, size),
-              albedo("placed albedo", PixelFormat::RGBA32F, size),
-              emission("placed emission", PixelFormat::RGBA32F, size) {}
-        GpuTexture surface, guides, slope, motion, albedo, emission;
+    std::span<const SignalInfo> signals = signalsOf(Signal::Both);
+    /// Of the last frame, by state.
+    struct State {
+        std::optional<RanFilter> ran;
+        std::array<const GpuTexture*, kMaxSignals> results{}; ///< by signal; null: nothing yet
     };
-    std::optional<PlacedSurfaces> placed; ///< kept from one reference to the next
-    GpuTexture lost;                      ///< what rounding took from targets.sum
+    std::array<State, kFilterStates> states;
 
     struct Reference {
-        Settings settings;
-        const GpuTexture* surface = nullptr; ///< the surfaces that are lit
-        const GpuTexture* guides = nullptr;
+        FrameSettings settings;
+        const Surfaces* surfaces = nullptr; ///< that are lit
         int samples = 0;
     };
     std::optional<Reference> converging;

@@ -15,12 +15,6 @@ namespace afterglow {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kFilterNames{"none",  "fixed",      "svgf",      "asvgf",
-                                                       "clamp", "percentile", "confidence"};
-constexpr std::array<Filter, 7> kFilters{Filter::None,      Filter::Fixed, Filter::Svgf,
-                                         Filter::Asvgf,     Filter::Clamp, Filter::Percentile,
-                                         Filter::Confidence};
-constexpr std::array<std::string_view, 3> kSignalNames{"shadows", "ao", "both"};
 constexpr std::array<std::string_view, 2> kKernelNames{"b3-5x5", "box-3x3"};
 constexpr std::array<std::string_view, 3> kLambdaFetchNames{"nearest", "bilinear", "max"};
 constexpr std::array<std::string_view, 3> kHistoryLawNames{"effective", "frames", "power"};
@@ -37,7 +31,8 @@ constexpr std::string_view kMeasured = "own choice, by measurement";
 // Three or four lines a tunable. A test walks the table and the structs and fails when a member is
 // missing. clang-format would break it into one value a line.
 // clang-format off
-#define AFTERGLOW_FIELD(member) [](Settings& s) -> Field::Ref { return &s.member; }
+#define AFTERGLOW_FIELD(member) [](FilterSettings& s) -> Field::Ref { return &s.member; }
+#define AFTERGLOW_FRAME_FIELD(member) nullptr, [](FrameSettings& s) -> Field::Ref { return &s.member; }
 const std::array kFields = std::to_array<Field>({
     {"temporal", "alpha", "Alpha",
      "Weight of the newest frame where nothing changed: small means little noise and much "
@@ -153,25 +148,26 @@ const std::array kFields = std::to_array<Field>({
      "", kSvgf, 0.05, 16.0, true, {}, AFTERGLOW_FIELD(denoiser.edges.sigmaDepth)},
 
     {"lighting", "signal", "Signal",
-     "Which rays are traced and filtered, as one signal.",
-     "", kAsvgf, 0.0, 2.0, false, kSignalNames, AFTERGLOW_FIELD(lighting.signal)},
+     "Which rays are traced, and whether they are filtered as one signal or each by itself.",
+     "", kAsvgf, 0.0, 3.0, false, signalNames(), AFTERGLOW_FRAME_FIELD(lighting.signal)},
     {"lighting", "aoRadius", "Occlusion radius",
      "Length of the ambient occlusion rays.",
      "of the scene's extent", "own choice", 0.001, 1.0, true, {},
-     AFTERGLOW_FIELD(lighting.aoRadius)},
+     AFTERGLOW_FRAME_FIELD(lighting.aoRadius)},
     {"lighting", "signalClamp", "Signal clamp",
      "Upper bound of each channel of the raw signal; gradient and filter see the same bound.",
-     "radiance", "own choice", 1.0, 10000.0, true, {}, AFTERGLOW_FIELD(lighting.signalClamp)},
+     "radiance", "own choice", 1.0, 10000.0, true, {}, AFTERGLOW_FRAME_FIELD(lighting.signalClamp)},
     {"lighting", "gradientSamples", "Gradient samples",
      "Merged into the raw signal, in place of a ninth of its new samples, or traced beside it by "
      "a ninth more rays, so that the raw signal is the same whatever the filter.",
-     "", kAsvgf, 0.0, 1.0, false, kPlacementNames, AFTERGLOW_FIELD(lighting.gradientSamples)},
+     "", kAsvgf, 0.0, 1.0, false, kPlacementNames, AFTERGLOW_FRAME_FIELD(lighting.gradientSamples)},
 
     {"display", "exposure", "Exposure",
      "Of the display image only; nothing is measured after it.",
-     "stops", "own choice", -8.0, 8.0, false, {}, AFTERGLOW_FIELD(display.exposure)},
+     "stops", "own choice", -8.0, 8.0, false, {}, AFTERGLOW_FRAME_FIELD(display.exposure)},
 });
 #undef AFTERGLOW_FIELD
+#undef AFTERGLOW_FRAME_FIELD
 // clang-format on
 
 std::size_t indexOf(std::string_view kind, std::string_view name,
@@ -206,7 +202,7 @@ void setNumber(Settings& settings, const Field& field, double value) {
         throw UsageError("setting '" + std::string(field.key) + "' is in [" +
                          shortNumber(field.min) + ", " + shortNumber(field.max) + "], not " +
                          shortNumber(value));
-    const Field::Ref ref = field.ref(settings);
+    const Field::Ref ref = field.in(settings);
     if (float* const* number = std::get_if<float*>(&ref))
         **number = float(value);
     else if (value != std::floor(value))
@@ -217,42 +213,6 @@ void setNumber(Settings& settings, const Field& field, double value) {
 }
 
 } // namespace
-
-std::string_view nameOf(Filter filter) {
-    return kFilterNames[std::size_t(filter)];
-}
-std::string_view nameOf(Signal signal) {
-    return kSignalNames[std::size_t(signal)];
-}
-
-std::string_view describe(Filter filter) {
-    switch (filter) {
-    case Filter::None: return "the raw signal: one sample per pixel, nothing filtered";
-    case Filter::Fixed: return "temporal accumulation with a fixed alpha, no spatial filter";
-    case Filter::Svgf:
-        return "SVGF: temporal accumulation and a spatial filter guided by variance (Schied et al. "
-               "2017)";
-    case Filter::Asvgf:
-        return "A-SVGF: SVGF with an alpha per pixel from temporal gradients (Schied et al. 2018)";
-    case Filter::Clamp:
-        return "SVGF whose history is clamped to the raw signal around (Karis 2014, Salvi 2016)";
-    case Filter::Percentile:
-        return "SVGF with an alpha per pixel from percentiles of the raw luminance (after merian)";
-    case Filter::Confidence:
-        return "A-SVGF whose gradients cut the history length (after history confidence in NRD)";
-    }
-    return {};
-}
-
-std::span<const Filter> allFilters() {
-    return kFilters;
-}
-Filter filterFromName(std::string_view name) {
-    return kFilters[indexOf("filter", name, kFilterNames)];
-}
-Signal signalFromName(std::string_view name) {
-    return Signal(indexOf("signal", name, kSignalNames));
-}
 
 std::span<const Field> fields() {
     return kFields;
@@ -278,7 +238,7 @@ nlohmann::json toJson(const Settings& settings) {
     json["filter"] = nameOf(settings.filter);
     Settings copy = settings;
     for (const Field& field : kFields) {
-        const Field::Ref ref = field.ref(copy);
+        const Field::Ref ref = field.in(copy);
         if (float* const* number = std::get_if<float*>(&ref))
             json[std::string(field.key)] = std::stod(shortNumber(**number));
         else if (!field.choices.empty())

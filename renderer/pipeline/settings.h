@@ -1,8 +1,8 @@
 #pragma once
 
 #include "renderer/base/names.h"
-#include "renderer/passes/frame_context.h"
-#include "shared/denoise_params.h"
+#include "renderer/filters/filter_table.h"
+#include "renderer/pipeline/signals.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,55 +12,9 @@
 
 namespace afterglow {
 
-enum class Filter { None, Fixed, Svgf, Asvgf, Clamp, Percentile, Confidence };
-enum class Signal { Shadows, AmbientOcclusion, Both };
 /// Where gradient samples are shaded: in the picture, in place of new samples of the pixels that
 /// they land on, or beside it, by rays of their own.
 enum class SamplePlacement { Merged, Extra };
-
-/// The names on the command line and in files: none, fixed, svgf, asvgf, clamp, percentile,
-/// confidence; shadows, ao, both.
-std::string_view nameOf(Filter filter);
-std::string_view nameOf(Signal signal);
-std::string_view describe(Filter filter); ///< one sentence
-std::span<const Filter> allFilters();
-Filter filterFromName(std::string_view name); ///< UsageError names the nearest known
-Signal signalFromName(std::string_view name); ///< UsageError names the nearest known
-
-/// Ranges, units, meaning and source of every member: fields().
-struct DenoiserSettings {
-    gpu::TemporalParams temporal{.alpha = 0.2f,
-                                 .alphaMoments = 0.2f,
-                                 .maxHistory = 128.0f,
-                                 .depthTolerance = 2.0f,
-                                 .normalTolerance = 0.9f,
-                                 .lambdaFetch = gpu::kLambdaMax,
-                                 .historyLaw = gpu::kHistoryPower,
-                                 .lambdaSource = gpu::kLambdaFromNothing, // set by the plan
-                                 .lambdaUse = gpu::kLambdaBlends,
-                                 .percentileSlope = 4.0f,
-                                 .clampSigmas = 1.0f,
-                                 .clampRadius = 2};
-    gpu::PercentileParams percentiles{
-        .lowPercentile = 0.1f, .highPercentile = 0.9f, .unused0 = 0.0f, .unused1 = 0.0f};
-    gpu::GradientParams gradient{.deltaFloor = 1e-4f,
-                                 .forceLambda = -1.0f,
-                                 .magnitude = gpu::kGradientSigned,
-                                 .unused0 = 0.0f};
-    gpu::EdgeStopping edges{
-        .sigmaLuminance = 4.0f, .sigmaNormal = 128.0f, .sigmaDepth = 1.0f, .step = 1};
-    gpu::EdgeStopping gradientEdges{
-        .sigmaLuminance = 4.0f, .sigmaNormal = 128.0f, .sigmaDepth = 1.0f, .step = 1};
-    float minHistory = 4.0f;
-    int atrousIterations = 5;
-    int feedbackIteration = 1; ///< whose result becomes the history; 0: the unfiltered blend
-    int gradientIterations = 5;
-    int kernel = int(Kernel::B3Spline5x5);
-    int gradientKernel = int(Kernel::Box3x3);
-    int gradientStrides = gpu::kStridesDouble;
-    int gradientLuminanceStop = 1;
-    int alwaysCarrySamples = 0; ///< gradient samples also where the filter does not use them
-};
 
 struct LightingSettings {
     int signal = int(Signal::Both);
@@ -73,13 +27,15 @@ struct DisplaySettings {
     float exposure = 0.0f; ///< stops
 };
 
-/// Every tunable of the renderer. Changing one never clears a history.
-struct Settings {
-    Filter filter = Filter::Asvgf;
-    DenoiserSettings denoiser;
+/// What all filters of a frame share.
+struct FrameSettings {
     LightingSettings lighting;
     DisplaySettings display;
 };
+
+/// Every tunable of a picture: of its frame, and of its filter. Changing one never clears a
+/// history.
+struct Settings : FrameSettings, FilterSettings {};
 
 /// One tunable: the one place where its name, range, unit, meaning and source are written down.
 /// Sliders, JSON keys, range checks and help are made from it.
@@ -94,7 +50,15 @@ struct Field {
     double min = 0.0, max = 1.0;
     bool logarithmic = false;
     std::span<const std::string_view> choices; ///< names of the values of an enumeration, from 0
-    Ref (*ref)(Settings&) = nullptr;
+    /// Where it is: one of the two.
+    Ref (*inFilter)(FilterSettings&) = nullptr;
+    Ref (*inFrame)(FrameSettings&) = nullptr;
+
+    bool isFrameWide() const { return inFrame != nullptr; }
+    Ref in(FrameSettings& frame, FilterSettings& filter) const {
+        return inFrame ? inFrame(frame) : inFilter(filter);
+    }
+    Ref in(Settings& settings) const { return in(settings, settings); }
 };
 std::span<const Field> fields();
 

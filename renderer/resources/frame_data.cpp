@@ -1,7 +1,6 @@
 #include "renderer/resources/frame_data.h"
 
 #include "renderer/resources/render_targets.h"
-#include "shared/bindings.h"
 
 #include <cmath>
 
@@ -27,7 +26,6 @@ void FrameData::begin(const Camera& camera, glm::ivec2 size) {
 
 void FrameData::upload() {
     buffer_.write(std::span<const gpu::FrameUniforms>(&uniforms, 1));
-    glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, buffer_.id());
 }
 
 void FrameData::end() {

@@ -17,11 +17,12 @@ public:
     /// begin().
     gpu::FrameUniforms uniforms{};
 
-    /// Starts a frame of `size` pixels seen by `camera`, uploads the block and binds it. Uniforms
-    /// that the caller sets must be in place.
+    /// Starts a frame of `size` pixels seen by `camera` and uploads the block. Uniforms that the
+    /// caller sets must be in place.
     void begin(const Camera& camera, glm::ivec2 size);
     /// Uploads the block again after a change to `uniforms` within the frame.
     void upload();
+    const GpuBuffer& block() const { return buffer_; } ///< what was uploaded last
     /// The frame becomes the previous one.
     void end();
     /// The next frame has no history.

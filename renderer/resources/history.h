@@ -30,6 +30,9 @@ private:
     Resource current_, previous_;
 };
 
-using History = HistoryOf<GpuTexture>;
+class History : public HistoryOf<GpuTexture> {
+public:
+    using HistoryOf::HistoryOf;
+};
 
 } // namespace afterglow

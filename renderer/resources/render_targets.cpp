@@ -1,123 +1,125 @@
 #include "renderer/resources/render_targets.h"
 
-#include "shared/bindings.h"
 #include "shared/counters.h"
 
 namespace afterglow {
 namespace {
 
-// What all() of an object that is being made or changed names are its own members.
-void clearAll(const std::vector<const GpuTexture*>& textures) {
+GpuTexture cleared(std::string_view label, PixelFormat format, glm::ivec2 size) {
+    GpuTexture texture(label, format, size);
+    texture.clear();
+    return texture;
+}
+
+void append(std::vector<const GpuTexture*>& list, const std::vector<const GpuTexture*>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+std::vector<const GpuTexture*> madeOf(std::initializer_list<const GpuTexture*> textures) {
+    std::vector<const GpuTexture*> made;
     for (const GpuTexture* texture : textures)
-        const_cast<GpuTexture*>(texture)->clear();
+        if (texture->size().x != 0)
+            made.push_back(texture);
+    return made;
 }
 
 } // namespace
 
-glm::ivec2 strataOf(glm::ivec2 size) {
-    return (size + int(gpu::kStratumSize) - 1) / int(gpu::kStratumSize);
+SignalTargets::SignalTargets(glm::ivec2 size) : raw("raw", PixelFormat::RGBA32F, size) {
+    raw.clear();
 }
 
-glm::ivec2 tilesOf(glm::ivec2 size) {
-    return (size + int(gpu::kTileSize) - 1) / int(gpu::kTileSize);
+void SignalTargets::makeSums() {
+    const glm::ivec2 size = raw.current().size();
+    if (sum.size() != size) {
+        sum = GpuTexture("sum", PixelFormat::RGBA32F, size);
+        lost = GpuTexture("sum, lost", PixelFormat::RGBA32F, size);
+        converged = cleared("converged", PixelFormat::RGBA32F, size);
+    }
+    sum.clear();
+    lost.clear();
 }
 
-FilterTargets::FilterTargets(glm::ivec2 imageSize)
-    : size(imageSize), color("color", PixelFormat::RGBA32F, size),
-      moments("moments", PixelFormat::RGBA32F, size),
-      gradientSamples("gradient samples", PixelFormat::RGBA32F, strataOf(size)),
-      gradient{{"gradient 0", PixelFormat::RGBA32F, strataOf(size)},
-               {"gradient 1", PixelFormat::RGBA32F, strataOf(size)}},
-      strataGuides("strata guides", PixelFormat::RGBA32F, strataOf(size)),
-      strataSlope("strata slope", PixelFormat::RG32F, strataOf(size)),
-      lambda("lambda", PixelFormat::R32F, strataOf(size)),
-      luminanceRange("luminance range", PixelFormat::RGBA32F, tilesOf(size)),
-      accumulated("accumulated", PixelFormat::RGBA32F, size),
-      control("control", PixelFormat::RGBA32F, size), filtered{{"filtered 0", PixelFormat::RGBA32F,
-                                                                size},
-                                                               {"filtered 1", PixelFormat::RGBA32F,
-                                                                size}},
-      composed("composed", PixelFormat::RGBA32F, size),
-      display("display", PixelFormat::RGBA8, size) {
-    clearAll(all());
+std::vector<const GpuTexture*> SignalTargets::all() const {
+    return madeOf({&raw.current(), &raw.previous(), &sampleRaw, &sum, &lost, &converged});
 }
+
+FilterTargets::FilterTargets(glm::ivec2 size)
+    : composed(cleared("composed", PixelFormat::RGBA32F, size)),
+      display(cleared("display", PixelFormat::RGBA8, size)) {}
 
 std::vector<const GpuTexture*> FilterTargets::all() const {
-    if (empty())
-        return {};
-    return {&color.current(), &color.previous(), &moments.current(), &moments.previous(),
-            &gradientSamples, &gradient[0],      &gradient[1],       &strataGuides,
-            &strataSlope,     &lambda,           &luminanceRange,    &accumulated,
-            &control,         &filtered[0],      &filtered[1],       &composed,
-            &display};
-}
-
-ExtraSamples::ExtraSamples(glm::ivec2 strata)
-    : visibility("sample visibility", PixelFormat::RGBA32UI, strata),
-      seeds("sample seeds", PixelFormat::R32UI, strata),
-      surface("sample surface", PixelFormat::RGBA32UI, strata),
-      guides("sample guides", PixelFormat::RGBA32F, strata),
-      slope("sample slope", PixelFormat::RG32F, strata),
-      motion("sample motion", PixelFormat::RGBA32F, strata),
-      albedo("sample albedo", PixelFormat::RGBA32F, strata),
-      emission("sample emission", PixelFormat::RGBA32F, strata),
-      raw("sample raw", PixelFormat::RGBA32F, strata) {
-    clearAll(all());
-}
-
-std::vector<const GpuTexture*> ExtraSamples::all() const {
-    if (empty())
-        return {};
-    return {&visibility, &seeds, &surface, &guides, &slope, &motion, &albedo, &emission, &raw};
-}
-
-RenderTargets::RenderTargets(glm::ivec2 imageSize)
-    : size(imageSize), strata(strataOf(imageSize)), ids("ids", PixelFormat::RG32UI, size),
-      depth("depth", PixelFormat::Depth32F, size),
-      visibility("visibility", PixelFormat::RGBA32UI, size),
-      seeds("seeds", PixelFormat::R32UI, size), guides("guides", PixelFormat::RGBA32F, size),
-      raw("raw", PixelFormat::RGBA32F, size), surface("surface", PixelFormat::RGBA32UI, size),
-      slope("slope", PixelFormat::RG32F, size), motion("motion", PixelFormat::RGBA32F, size),
-      albedo("albedo", PixelFormat::RGBA32F, size),
-      emission("emission", PixelFormat::RGBA32F, size),
-      owners("owners", PixelFormat::R32UI, strata), claims("claims", PixelFormat::RG32UI, strata),
-      samples("samples", PixelFormat::RGBA32UI, strata), sum("sum", PixelFormat::RGBA32F, size),
-      counters("counters", PixelFormat::R32UI, {int(gpu::kCounterCount), 1}) {
-    filters[0] = FilterTargets(size);
-    framebuffer = Framebuffer("visibility", {&ids}, &depth);
-    clear();
-}
-
-void RenderTargets::swapHistories() {
-    for (History* history : {&visibility, &seeds, &guides, &raw})
-        history->swap();
-    for (FilterTargets& filter : filters)
-        if (!filter.empty()) {
-            filter.color.swap();
-            filter.moments.swap();
-        }
-}
-
-std::vector<const GpuTexture*> RenderTargets::all() const {
-    std::vector<const GpuTexture*> textures{&ids, &depth};
-    for (const History* history : {&visibility, &seeds, &guides, &raw}) {
-        textures.push_back(&history->current());
-        textures.push_back(&history->previous());
-    }
-    for (const GpuTexture* texture : {&surface, &slope, &motion, &albedo, &emission, &owners,
-                                      &claims, &samples, &sum, &counters})
-        textures.push_back(texture);
-    const auto append = [&](const std::vector<const GpuTexture*>& more) {
-        textures.insert(textures.end(), more.begin(), more.end());
-    };
-    append(extra.all());
-    for (const FilterTargets& filter : filters)
-        append(filter.all());
+    std::vector<const GpuTexture*> textures = madeOf({&composed, &display});
+    for (const ImageSet& images : own)
+        append(textures, images.all());
     return textures;
 }
 
-void RenderTargets::clear() {
-    clearAll(all()); // every one is a member of this object
+RenderTargets::RenderTargets(glm::ivec2 imageSize)
+    : size(imageSize), strata(strataOf(imageSize)), ids(cleared("ids", PixelFormat::RG32UI, size)),
+      depth(cleared("depth", PixelFormat::Depth32F, size)), surfaces(size),
+      previousVisibility(cleared("visibility (previous)", PixelFormat::RGBA32UI, size)),
+      previousGuides(cleared("guides (previous)", PixelFormat::RGBA32F, size)),
+      seeds("seeds", PixelFormat::R32UI, size),
+      owners(cleared("owners", PixelFormat::R32UI, strata)),
+      claims(cleared("claims", PixelFormat::RG32UI, strata)),
+      samples(cleared("samples", PixelFormat::RGBA32UI, strata)),
+      strataGuides(cleared("strata guides", PixelFormat::RGBA32F, strata)),
+      strataSlope(cleared("strata slope", PixelFormat::RG32F, strata)),
+      counters(cleared("counters", PixelFormat::R32UI, {int(gpu::kCounterCount), 1})) {
+    seeds.clear();
+    setSignals(1);
+    filters[0] = FilterTargets(size);
+    framebuffer = Framebuffer("visibility", {&ids}, &depth);
+}
+
+void RenderTargets::setSignals(std::size_t count) {
+    while (signals.size() > count)
+        signals.pop_back();
+    while (signals.size() < count)
+        signals.emplace_back(size);
+    for (FilterTargets& filter : filters)
+        if (filter.own.size() > count)
+            filter.own.resize(count);
+}
+
+void RenderTargets::swapHistories() {
+    std::swap(surfaces.visibility, previousVisibility);
+    std::swap(surfaces.guides, previousGuides);
+    seeds.swap();
+    for (SignalTargets& signal : signals)
+        signal.raw.swap();
+    for (FilterTargets& filter : filters)
+        for (ImageSet& images : filter.own)
+            images.swapHistories();
+}
+
+std::vector<GpuTexture*> RenderTargets::kept() {
+    std::vector<GpuTexture*> images{&surfaces.visibility, &surfaces.guides, &seeds.current()};
+    for (SignalTargets& signal : signals)
+        images.push_back(&signal.raw.current());
+    return images;
+}
+
+std::vector<const GpuTexture*> RenderTargets::kept() const {
+    std::vector<const GpuTexture*> images{&surfaces.visibility, &surfaces.guides, &seeds.current()};
+    for (const SignalTargets& signal : signals)
+        images.push_back(&signal.raw.current());
+    return images;
+}
+
+std::vector<const GpuTexture*> RenderTargets::all() const {
+    std::vector<const GpuTexture*> textures = madeOf(
+        {&ids, &depth, &previousVisibility, &previousGuides, &seeds.current(), &seeds.previous(),
+         &owners, &claims, &samples, &strataGuides, &strataSlope, &sampleSeeds, &counters});
+    for (const Surfaces* seen : {&surfaces, &sampleSurfaces, &placed})
+        if (!seen->empty())
+            append(textures, seen->all());
+    for (const SignalTargets& signal : signals)
+        append(textures, signal.all());
+    for (const FilterTargets& filter : filters)
+        append(textures, filter.all());
+    return textures;
 }
 
 std::size_t RenderTargets::bytes() const {
@@ -125,6 +127,13 @@ std::size_t RenderTargets::bytes() const {
     for (const GpuTexture* texture : all())
         sumOfBytes += texture->bytes();
     return sumOfBytes;
+}
+
+double bytesPerPixel(std::span<const ImageDecl> filter) {
+    // Whole strata and tiles: what a small picture takes is what a large one takes.
+    constexpr glm::ivec2 kSmall{48, 48};
+    return double(RenderTargets(kSmall).bytes() + bytesOf(filter, kSmall)) /
+           double(kSmall.x * kSmall.y);
 }
 
 } // namespace afterglow

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "renderer/gl/framebuffer.h"
-#include "renderer/resources/history.h"
+#include "renderer/resources/image_set.h"
+#include "renderer/resources/surfaces.h"
 
 #include <array>
 #include <cstddef>
@@ -9,43 +10,38 @@
 
 namespace afterglow {
 
-/// The number of strata that cover an image: ceil(size / 3).
-glm::ivec2 strataOf(glm::ivec2 size);
-/// The number of tiles that cover an image: ceil(size / 8).
-glm::ivec2 tilesOf(glm::ivec2 size);
-
-/// How many filters can run on one raw signal, each with its own histories.
+/// How many filters can run on the same signals, each with its own histories.
 inline constexpr std::size_t kFilterStates = 4;
+/// How many signals a frame can have, each with its own noise, gradient and filter.
+inline constexpr std::size_t kMaxSignals = 2;
 
-/// What one filter makes of a frame and keeps of it. Contents are specified in docs/pipeline.md.
+/// One signal of a frame: a part of the light, of one sample a pixel.
+struct SignalTargets {
+    SignalTargets() = default;
+    explicit SignalTargets(glm::ivec2 size);
+
+    std::vector<const GpuTexture*> all() const;
+    void makeSums(); ///< those of a reference, zero
+
+    History raw;
+    GpuTexture sampleRaw; ///< RGBA32F, strata: of samples beside the picture; empty without any
+    // Of a reference; empty before the first one.
+    GpuTexture sum;       ///< RGBA32F: of its samples
+    GpuTexture lost;      ///< RGBA32F: what rounding has taken from the sum
+    GpuTexture converged; ///< RGBA32F: mean signal, variance of one sample's luminance
+};
+
+/// What one filter makes of a frame and keeps of it.
 struct FilterTargets {
     FilterTargets() = default;
     explicit FilterTargets(glm::ivec2 size);
 
-    bool empty() const { return size.x == 0; }
+    bool empty() const { return composed.size().x == 0; }
     std::vector<const GpuTexture*> all() const;
 
-    glm::ivec2 size{0};
-    History color, moments;
-    GpuTexture gradientSamples; ///< RGBA32F, strata: as measured
-    GpuTexture gradient[2]; ///< RGBA32F, strata: reconstructed in turns; the result is the first
-    GpuTexture strataGuides, strataSlope, lambda;
-    GpuTexture luminanceRange; ///< RGBA32F, tiles
-    GpuTexture accumulated, control;
-    GpuTexture filtered[2];
-    GpuTexture composed; ///< RGBA32F: remodulated linear radiance
-    GpuTexture display;  ///< RGBA8: tone-mapped, sRGB-encoded
-};
-
-/// Gradient samples that are shaded beside the picture: one texel a stratum.
-struct ExtraSamples {
-    ExtraSamples() = default;
-    explicit ExtraSamples(glm::ivec2 strata);
-
-    bool empty() const { return raw.size().x == 0; }
-    std::vector<const GpuTexture*> all() const;
-
-    GpuTexture visibility, seeds, surface, guides, slope, motion, albedo, emission, raw;
+    std::vector<ImageSet> own; ///< by signal: what the filter declares
+    GpuTexture composed;       ///< RGBA32F: remodulated linear radiance
+    GpuTexture display;        ///< RGBA8: tone-mapped, sRGB-encoded
 };
 
 /// Every screen-sized texture of the renderer: what it holds, how, and for how long. Contents are
@@ -55,9 +51,13 @@ struct RenderTargets {
     explicit RenderTargets(glm::ivec2 size);
 
     void swapHistories(); ///< current becomes previous, of all that are not empty; once a frame
-    void clear();         ///< everything to zero
-    std::size_t bytes() const;
+    /// So many signals; further ones begin with zeros.
+    void setSignals(std::size_t count);
+    /// What a frame leaves for the next beside the histories of filters.
+    std::vector<GpuTexture*> kept();
+    std::vector<const GpuTexture*> kept() const;
     std::vector<const GpuTexture*> all() const;
+    std::size_t bytes() const;
 
     glm::ivec2 size{0}, strata{0};
 
@@ -65,19 +65,28 @@ struct RenderTargets {
     GpuTexture depth; ///< of the raster pass, reversed
     Framebuffer framebuffer;
 
-    History visibility, seeds, guides, raw;
-    GpuTexture surface, slope, motion, albedo, emission;
+    Surfaces surfaces;                             ///< of this frame
+    GpuTexture previousVisibility, previousGuides; ///< of the frame before
+    History seeds;
+    std::vector<SignalTargets> signals;
 
     GpuTexture owners;  ///< R32UI, strata: keys of forward projection
     GpuTexture claims;  ///< RG32UI, strata: what became of the samples before they were merged
     GpuTexture samples; ///< RGBA32UI, strata
-    ExtraSamples extra; ///< empty until they are first asked for
+    GpuTexture strataGuides, strataSlope;
+    // Samples that are shaded beside the picture, one texel a stratum; empty before the first.
+    Surfaces sampleSurfaces;
+    GpuTexture sampleSeeds;
+
+    Surfaces placed; ///< those of the picture at another moment; empty before they are first needed
 
     /// The first one always; the others are empty until they first run.
     std::array<FilterTargets, kFilterStates> filters;
 
-    GpuTexture sum;      ///< RGBA32F: of reference samples
     GpuTexture counters; ///< R32UI: shared/counters.h
 };
+
+/// Bytes that images take a pixel, for one signal and one filter of these images.
+double bytesPerPixel(std::span<const ImageDecl> filter);
 
 } // namespace afterglow

@@ -19,7 +19,7 @@ Uint4Texture(previousVisibility);
 UintTexture(previousSeeds);
 Uint4Texture(visibility);
 layout(r32ui) uniform uimage2D owners;
-writeonly uniform uimage2D claims; // fate so far, stratum where it landed
+writeonly uniform uimage2D claims; // fate so far, pixel where it landed
 
 const float kDepthTolerance = 0.01; // of the sample's depth
 
@@ -62,7 +62,7 @@ uint offer(ivec2 s, out ivec2 landed) {
         return kFateOffScreen;
     vec2 landing = pixelOf(clip);
     ivec2 q = clamp(ivec2(landing), ivec2(0), frame.size - 1);
-    landed = stratumOf(q);
+    landed = q;
     float depth = -(frame.viewFromWorld * vec4(positionNow(sampled), 1.0)).z;
     return fateAt(q, landing, sampled, depth);
 }
@@ -74,6 +74,6 @@ void main() {
     ivec2 landed;
     uint fate = offer(s, landed);
     if (fate == kFateCarried)
-        imageAtomicMax(owners, landed, claimKey(s));
-    imageStore(claims, s, uvec4(fate, uint(landed.x) | (uint(landed.y) << 16), 0u, 0u));
+        imageAtomicMax(owners, stratumOf(landed), claimKey(s));
+    imageStore(claims, s, uvec4(fate, packPixel(landed), 0u, 0u));
 }

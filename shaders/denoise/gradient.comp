@@ -5,6 +5,7 @@
 // A stratum without a sample holds (0, 0): it adds nothing to numerator and denominator alike.
 // With EXTRA_SAMPLES the sample was not shaded in the picture, but beside it.
 
+#include "lib/encoding.glsl"
 #include "lib/fetch.glsl"
 #include "shared/bindings.h"
 #include "shared/denoise_params.h"
@@ -14,17 +15,15 @@ layout(std140, binding = kPassBlock) uniform Params {
     GradientParams params;
 };
 
-Float4Texture(raw);    // a: luminance
-Uint4Texture(samples); // previous luminance, place in the stratum + 1
+Float4Texture(raw);         // a: luminance
+Float4Texture(previousRaw); // of the frame before
+Uint4Texture(samples);      // y: place in the stratum + 1; z: source pixel
 Float4Texture(guides);
-Float2Texture(slope);
 #ifdef EXTRA_SAMPLES
 Float4Texture(sampleRaw); // per stratum; a: luminance
 #endif
 
 writeonly uniform image2D gradient; // delta, Delta, mean luminance, variance of luminance
-writeonly uniform image2D strataGuides;
-writeonly uniform image2D strataSlope;
 
 void main() {
     ivec2 s = ivec2(gl_GlobalInvocationID.xy);
@@ -42,7 +41,7 @@ void main() {
         uint place = carried.y - 1u;
         float now = fetch(raw, first + ivec2(place % kStratumSize, place / kStratumSize)).a;
 #endif
-        float before = uintBitsToFloat(carried.x);
+        float before = fetch(previousRaw, unpackPixel(carried.z)).a;
         float difference = now - before;
         change = vec2(params.magnitude == kGradientAbsolute ? abs(difference) : difference,
                       max(now, before));
@@ -51,14 +50,10 @@ void main() {
     float values[9];
     int count = 0;
     float sum = 0.0;
-    ivec2 guidePixel = min(first + 1, last);
-    bool hasGuide = fetch(guides, guidePixel).w != 0.0;
     for (int i = 0; i < 9; ++i) {
         ivec2 p = first + ivec2(i % 3, i / 3);
         if (any(greaterThan(p, last)) || fetch(guides, p).w == 0.0)
             continue;
-        guidePixel = hasGuide ? guidePixel : p;
-        hasGuide = true;
         values[count] = fetch(raw, p).a;
         sum += values[count];
         ++count;
@@ -69,6 +64,4 @@ void main() {
         variance += (values[i] - mean) * (values[i] - mean) / float(count);
 
     imageStore(gradient, s, vec4(change, mean, variance));
-    imageStore(strataGuides, s, hasGuide ? fetch(guides, guidePixel) : vec4(0.0));
-    imageStore(strataSlope, s, hasGuide ? vec4(fetch(slope, guidePixel).xy, 0.0, 0.0) : vec4(0.0));
 }

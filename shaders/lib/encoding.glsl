@@ -19,3 +19,12 @@ vec3 octDecode(uint bits) {
         n.xy = (1.0 - abs(n.yx)) * signNotZero(n.xy);
     return normalize(n);
 }
+
+// A pixel, or a stratum, of a picture of at most 65,536 x 65,536.
+uint packPixel(ivec2 p) {
+    return uint(p.x) | (uint(p.y) << 16);
+}
+
+ivec2 unpackPixel(uint place) {
+    return ivec2(place & 0xffffu, place >> 16);
+}

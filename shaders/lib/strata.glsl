@@ -1,5 +1,6 @@
 // The 3x3 strata of gradient samples.
 
+#include "lib/encoding.glsl"
 #include "lib/frame.glsl"
 #include "lib/hash.glsl"
 
@@ -14,7 +15,7 @@ ivec2 stratumSize(ivec2 s) {
 // The pixel that a stratum offers as a gradient sample, a pure function of stratum, frame and run.
 ivec2 candidatePixel(ivec2 s, uint inFrame) {
     ivec2 size = stratumSize(s);
-    uint number = hash3(uint(s.x) | (uint(s.y) << 16), inFrame, frame.seed) % uint(size.x * size.y);
+    uint number = hash3(packPixel(s), inFrame, frame.seed) % uint(size.x * size.y);
     return s * int(kStratumSize) + ivec2(number % uint(size.x), number / uint(size.x));
 }
 

@@ -1,7 +1,7 @@
 #version 450 core
 
-// Adds one sample per pixel to the sums of a reference, and makes the seeds of the next sample: the
-// same pixels with the next number of the sequence.
+// Adds one sample per pixel to the sums of a reference. With NEXT_SEEDS it also makes the seeds of
+// the next sample: the same pixels with the next number of the sequence.
 //
 // Kahan 1965, "Further remarks on reducing truncation errors": it keeps the mean within 6e-8 for
 // any number of samples; a plain sum of 65,536 is off by 1e-5.
@@ -13,7 +13,9 @@
 layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
 
 Float4Texture(raw);
+#ifdef NEXT_SEEDS
 layout(r32ui) uniform uimage2D seeds;
+#endif
 layout(rgba32f) uniform image2D sum;  // rgb: of the signal; a: of the square of its luminance
 layout(rgba32f) uniform image2D lost; // what has been added to the sum too much, by rounding
 
@@ -30,5 +32,7 @@ void main() {
     precise vec4 tooMuch = added - value;
     imageStore(sum, p, after);
     imageStore(lost, p, tooMuch);
+#ifdef NEXT_SEEDS
     imageStore(seeds, p, imageLoad(seeds, p) + uvec4(1u << (2 * kTileBits), 0u, 0u, 0u));
+#endif
 }

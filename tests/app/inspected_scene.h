@@ -66,14 +66,16 @@ struct InspectedScene {
                          .frame = frame,
                          .seed = 3,
                          .lights = lights},
-                        runs);
+                        frameSettings, runs);
         ++frame;
     }
     void render(const Settings& settings, float right = 0.0f) {
+        frameSettings = settings;
         const FilterRun run{0, settings};
         render({&run, 1}, right);
     }
 
+    FrameSettings frameSettings;
     Renderer renderer;
     Camera camera;
     std::vector<LightState> lights;

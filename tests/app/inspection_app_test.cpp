@@ -60,22 +60,24 @@ void checkText(const InspectedValue& value) {
     }
 }
 
-int checkAgainstImages(const Renderer& renderer, const FilterRun& run) {
+int checkAgainstImages(const Renderer& renderer, const FrameSettings& settings,
+                       const FilterRun& run) {
     std::map<std::string_view, Image<glm::vec4>> images;
     for (const Line& line : kLines)
-        images[line.aov] = readAov(renderer, aovByName(line.aov), run.state);
+        if (isMadeBy(aovByName(line.aov), run.settings))
+            images[line.aov] = readAov(renderer, aovByName(line.aov), run.state);
     int compared = 0;
     for (const glm::ivec2 p : pixelsOf(renderer.size(), 5)) {
         CAPTURE(p.x);
         CAPTURE(p.y);
-        const Inspection inspection = inspect(renderer, run.state, run.settings, p);
+        const Inspection inspection = inspect(renderer, run.state, settings, p);
         const bool isSurface = images["instance"](p).x > 0.0f;
         for (const Line& line : kLines) {
             CAPTURE(line.aov);
             const AovInfo& aov = aovByName(line.aov);
             const InspectedValue* shown = find(inspection, line.group, line.name);
             const bool ofSurface = line.group == "surface" && line.name != "instance";
-            const bool expected = isMadeBy(aov, run.settings.filter, run.settings.denoiser) &&
+            const bool expected = isMadeBy(aov, run.settings) &&
                                   (isSurface || !(ofSurface || line.group == "history"));
             REQUIRE((shown != nullptr) == expected);
             if (!shown)
@@ -104,6 +106,7 @@ TEST_CASE("the inspector shows the numbers that the images hold, in every filter
             std::array{Filter::Svgf, Filter::Fixed, Filter::None, Filter::Asvgf}};
         for (const auto& batch : batches) {
             InspectedScene bench("moving");
+            bench.frameSettings.lighting.gradientSamples = int(placement);
             std::vector<FilterRun> runs;
             for (std::size_t i = 0; i < batch.size(); ++i)
                 runs.push_back({3 - i, withSamples(batch[i], placement)});
@@ -117,7 +120,8 @@ TEST_CASE("the inspector shows the numbers that the images hold, in every filter
             }
             for (const FilterRun& run : runs) {
                 CAPTURE(nameOf(run.settings.filter));
-                CHECK(checkAgainstImages(bench.renderer, run) > 600); // 104 pixels, 6 lines or more
+                CHECK(checkAgainstImages(bench.renderer, bench.frameSettings, run) >
+                      600); // 104 pixels, 6 lines or more
             }
         }
     }
@@ -156,15 +160,16 @@ TEST_CASE("what the inspector finds again is what the temporal pass had fetched"
             ++kept;
             float n = f.fetched->length, l = f.lambda;
             REQUIRE(n > 0.0f);
-            if (f.plan.cutHistory) {
+            if (f.plan.cutsHistory()) {
                 const float c = (1.0f - l) * (1.0f - l);
                 n *= c + (1.0f - c) / (n + 1.0f);
                 cut += l > 0.1f;
                 l = 0.0f;
             }
             if (f.lambdaFrom)
-                CHECK(bench.renderer.targets().filters[0].lambda.readAt<float>(*f.lambdaFrom) ==
-                      f.lambda);
+                CHECK(
+                    imageOf(bench.renderer.targets(), svgf::kLambda).readAt<float>(*f.lambdaFrom) ==
+                    f.lambda);
             if (f.range) {
                 const float off = std::max(
                     {0.0f, f.range->x - f.historyLuminance, f.historyLuminance - f.range->y});
@@ -188,7 +193,7 @@ TEST_CASE("an instance has its number, its node's name and its material's") {
     InspectedScene bench("moving");
     const Settings settings = settingsOf(Filter::Svgf);
     bench.render(settings);
-    const auto seen = bench.renderer.targets().visibility.current().read<glm::uvec4>();
+    const auto seen = bench.renderer.targets().surfaces.visibility.read<glm::uvec4>();
     std::set<std::string> names;
     for (const glm::ivec2 p : pixelsOf(kInspectedSize, 2)) {
         const Inspection inspection = inspect(bench.renderer, 0, settings, p);
@@ -215,8 +220,10 @@ TEST_CASE("the inspector works on a picture of one pixel, and on no pixel outsid
             bench.render(settings);
             const Inspection inspection = inspect(bench.renderer, 0, settings, {0, 0});
             CHECK(inspection.stratum == glm::ivec2(0));
-            CHECK(find(inspection, "history", "alpha")->numbers[0] ==
-                  double(bench.renderer.targets().filters[0].control.readAt<glm::vec4>({0, 0}).y));
+            CHECK(
+                find(inspection, "history", "alpha")->numbers[0] ==
+                double(
+                    imageOf(bench.renderer.targets(), svgf::kControl).readAt<glm::vec4>({0, 0}).y));
             CHECK(tells(inspection, "There is no history") == (i == 0));
         }
         for (const glm::ivec2 outside : {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0)})

@@ -42,9 +42,10 @@ TEST_CASE("the story names the reason for which a history was lost, and the fate
             bench.render(settings, right);
             if (bench.frame == 2)
                 continue;
-            const auto control = bench.renderer.targets().filters[0].control.read<glm::vec4>();
+            const auto control =
+                imageOf(bench.renderer.targets(), svgf::kControl).read<glm::vec4>();
             const auto samples = bench.renderer.targets().samples.read<glm::uvec4>();
-            const auto seen = bench.renderer.targets().visibility.current().read<glm::uvec4>();
+            const auto seen = bench.renderer.targets().surfaces.visibility.read<glm::uvec4>();
             std::map<int, int> told;
             for (const glm::ivec2 p : pixelsOf(kInspectedSize, 1)) {
                 const int reason = int(control(p).w);
@@ -93,11 +94,11 @@ TEST_CASE("a gradient sample is followed from its pixel of the frame before to w
         InspectedScene bench("moving");
         bench.render(settings);
         bench.render(settings);
-        const auto rawBefore = bench.renderer.targets().raw.current().read<glm::vec4>();
+        const auto rawBefore = bench.renderer.targets().signals[0].raw.current().read<glm::vec4>();
         const auto seedsBefore = bench.renderer.targets().seeds.current().read<std::uint32_t>();
         bench.lights[0].power = 0.5f;
         bench.render(settings, 0.3f);
-        const auto raw = bench.renderer.targets().raw.current().read<glm::vec4>();
+        const auto raw = bench.renderer.targets().signals[0].raw.current().read<glm::vec4>();
         int followed = 0, moved = 0;
         for (const glm::ivec2 p : pixelsOf(kInspectedSize, 1)) {
             if (p.x % 3 != 1 || p.y % 3 != 1)
@@ -208,11 +209,11 @@ TEST_CASE("every filter explains its alpha in its own way") {
     }
     int cuts = 0, outside = 0, clamped = 0, looked = 0;
     for (const glm::ivec2 p : pixelsOf(kInspectedSize, 4)) {
-        if (!pixelFacts(bench.renderer, 0, runs[0].settings, p).isSurface())
+        if (!pixelFacts(bench.renderer, 0, bench.frameSettings, p).isSurface())
             continue;
         ++looked;
         const auto at = [&](std::size_t i) {
-            return inspect(bench.renderer, i, runs[i].settings, p);
+            return inspect(bench.renderer, i, bench.frameSettings, p);
         };
         const Inspection confidence = at(0), percentile = at(1), clamp = at(2), none = at(3);
         CAPTURE(storyText(confidence) + storyText(percentile) + storyText(clamp));

@@ -32,12 +32,12 @@ Settings onMergedFrames(Filter filter, Signal signal = Signal::Both) {
 }
 
 void checkEqualOutputs(const Sequence& a, const Sequence& b) {
-    CHECK(differingPixels(a.targets().raw.current().read<glm::vec4>(),
-                          b.targets().raw.current().read<glm::vec4>()) == 0);
-    CHECK(differingPixels(a.targets().filters[0].moments.current().read<glm::vec4>(),
-                          b.targets().filters[0].moments.current().read<glm::vec4>()) == 0);
-    CHECK(differingPixels(a.targets().filters[0].color.current().read<glm::vec4>(),
-                          b.targets().filters[0].color.current().read<glm::vec4>()) == 0);
+    CHECK(differingPixels(a.targets().signals[0].raw.current().read<glm::vec4>(),
+                          b.targets().signals[0].raw.current().read<glm::vec4>()) == 0);
+    CHECK(differingPixels(imageOf(a.targets(), svgf::kMoments).read<glm::vec4>(),
+                          imageOf(b.targets(), svgf::kMoments).read<glm::vec4>()) == 0);
+    CHECK(differingPixels(imageOf(a.targets(), svgf::kColor).read<glm::vec4>(),
+                          imageOf(b.targets(), svgf::kColor).read<glm::vec4>()) == 0);
     CHECK(differingPixels(a.signal(), b.signal()) == 0);
 }
 

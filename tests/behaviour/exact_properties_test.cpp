@@ -1,5 +1,6 @@
 // What must hold whatever the noise. Each case is one promise of the method: Schied et al. 2018.
 
+#include "renderer/pipeline/aov.h"
 #include "renderer/scene/procedural.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/sequence.h"
@@ -26,7 +27,7 @@ int strataWithSample(const Sequence& sequence) {
 
 float largestLambda(const Sequence& sequence) {
     float largest = 0.0f;
-    const auto image = sequence.targets().filters[0].lambda.read<float>();
+    const auto image = imageOf(sequence.targets(), svgf::kLambda).read<float>();
     for (const float lambda : image.pixels())
         largest = std::max(largest, lambda);
     return largest;
@@ -35,7 +36,7 @@ float largestLambda(const Sequence& sequence) {
 /// The largest |delta| / Delta over all gradient samples.
 float largestChange(const Sequence& sequence) {
     float largest = 0.0f;
-    const auto image = sequence.targets().filters[0].gradientSamples.read<glm::vec4>();
+    const auto image = imageOf(sequence.targets(), svgf::kGradientSamples).read<glm::vec4>();
     for (const glm::vec4& g : image.pixels())
         if (g.x != 0.0f)
             largest = std::max(largest, std::abs(g.x) / g.y);
@@ -50,10 +51,10 @@ Settings svgfOnMergedFrames(Signal signal = Signal::Both) {
 }
 
 void checkEqualOutputs(const Sequence& a, const Sequence& b) {
-    CHECK(differingPixels(a.targets().raw.current().read<glm::vec4>(),
-                          b.targets().raw.current().read<glm::vec4>()) == 0);
-    CHECK(differingPixels(a.targets().filters[0].moments.current().read<glm::vec4>(),
-                          b.targets().filters[0].moments.current().read<glm::vec4>()) == 0);
+    CHECK(differingPixels(a.targets().signals[0].raw.current().read<glm::vec4>(),
+                          b.targets().signals[0].raw.current().read<glm::vec4>()) == 0);
+    CHECK(differingPixels(imageOf(a.targets(), svgf::kMoments).read<glm::vec4>(),
+                          imageOf(b.targets(), svgf::kMoments).read<glm::vec4>()) == 0);
     CHECK(differingPixels(a.signal(), b.signal()) == 0);
 }
 
@@ -101,7 +102,8 @@ TEST_CASE("in a scene where nothing changes every gradient sample is 0 and A-SVG
             CAPTURE(frame);
             if (frame > 0)
                 CHECK(strataWithSample(adaptive) > 100); // of 21 x 13
-            const auto image = adaptive.targets().filters[0].gradientSamples.read<glm::vec4>();
+            const auto image =
+                imageOf(adaptive.targets(), svgf::kGradientSamples).read<glm::vec4>();
             for (const glm::vec4& g : image.pixels())
                 REQUIRE(g.x == 0.0f);
             CHECK(largestLambda(adaptive) == 0.0f);
@@ -177,9 +179,10 @@ TEST_CASE("the only light, switched off and on again, gives lambda 1 in the fram
         sequence.light("key").on = on;
         sequence.next();
         const Image<glm::vec4> gradient =
-            sequence.targets().filters[0].gradient[0].read<glm::vec4>();
-        const Image<float> lambda = sequence.targets().filters[0].lambda.read<float>();
-        const Image<glm::vec4> control = sequence.targets().filters[0].control.read<glm::vec4>();
+            imageOf(sequence.targets(), svgf::kGradient0).read<glm::vec4>();
+        const Image<float> lambda = imageOf(sequence.targets(), svgf::kLambda).read<float>();
+        const Image<glm::vec4> control =
+            imageOf(sequence.targets(), svgf::kControl).read<glm::vec4>();
         int changed = 0;
         for (std::size_t i = 0; i < lambda.pixels().size(); ++i)
             if (gradient.pixels()[i].y > sequence.settings.denoiser.gradient.deltaFloor) {
@@ -219,15 +222,17 @@ TEST_CASE("the same frames come out twice, bit for bit, in every image") {
         }
         const RenderTargets& a = runs[0]->targets();
         const RenderTargets& b = runs[1]->targets();
-        CHECK(differingPixels(a.visibility.current().read<glm::uvec4>(),
-                              b.visibility.current().read<glm::uvec4>()) == 0);
+        CHECK(differingPixels(a.surfaces.visibility.read<glm::uvec4>(),
+                              b.surfaces.visibility.read<glm::uvec4>()) == 0);
         CHECK(differingPixels(a.seeds.current().read<std::uint32_t>(),
                               b.seeds.current().read<std::uint32_t>()) == 0);
         CHECK(differingPixels(a.samples.read<glm::uvec4>(), b.samples.read<glm::uvec4>()) == 0);
-        CHECK(differingPixels(a.filters[0].control.read<glm::vec4>(),
-                              b.filters[0].control.read<glm::vec4>()) == 0);
-        CHECK(differingPixels(a.filters[0].display.read<glm::u8vec4>(),
-                              b.filters[0].display.read<glm::u8vec4>()) == 0);
+        for (const AovInfo& aov : aovs())
+            if (isMadeBy(aov, settingsOf(filter)))
+                CHECK(differingPixels(readAov(runs[0]->renderer(), aov),
+                                      readAov(runs[1]->renderer(), aov)) == 0);
+        CHECK(differingPixels(runs[0]->renderer().display().read<glm::u8vec4>(),
+                              runs[1]->renderer().display().read<glm::u8vec4>()) == 0);
         checkEqualOutputs(*runs[0], *runs[1]);
     }
 }

@@ -51,9 +51,10 @@ struct Bench {
                 .lights = lights};
     }
     void render(std::uint32_t frame, std::span<const FilterRun> runs) {
-        renderer.render(input(frame), runs);
+        renderer.render(input(frame), settings, runs);
     }
 
+    FrameSettings settings;
     Renderer renderer;
     Camera camera;
     std::vector<LightState> lights;
@@ -76,20 +77,19 @@ TEST_CASE("four filters on one raw signal are what each is alone on that signal,
             alone.push_back(std::make_unique<Bench>("hall"));
         }
         Bench bench("hall");
+        bench.settings.lighting.gradientSamples = int(placement);
         for (std::uint32_t frame = 0; frame < 7; ++frame) {
             CAPTURE(frame);
             bench.render(frame, together);
             for (std::size_t i = 0; i < filters.size(); ++i) {
                 CAPTURE(i);
-                Settings own = together[i].settings;
+                Settings own{bench.settings, together[i].settings};
                 own.denoiser.alwaysCarrySamples = 1; // the merged samples of its neighbor
                 alone[i]->renderer.render(alone[i]->input(frame), own);
                 CHECK(differingPixels(signalOf(bench.renderer, 3 - i),
                                       signalOf(alone[i]->renderer)) == 0);
-                CHECK(differingPixels(
-                          bench.renderer.targets().filters[3 - i].display.read<glm::u8vec4>(),
-                          alone[i]->renderer.targets().filters[0].display.read<glm::u8vec4>()) ==
-                      0);
+                CHECK(differingPixels(bench.renderer.display(3 - i).read<glm::u8vec4>(),
+                                      alone[i]->renderer.display().read<glm::u8vec4>()) == 0);
             }
         }
         CHECK(differingPixels(signalOf(bench.renderer, 2), signalOf(bench.renderer, 3)) > 500);
@@ -128,8 +128,9 @@ TEST_CASE("samples beside the picture leave the raw signal as it is without a gr
         CAPTURE(frame);
         adaptive.renderer.render(adaptive.input(frame), withExtraSamples(Filter::Asvgf));
         plain.renderer.render(plain.input(frame), settingsOf(Filter::Svgf));
-        CHECK(differingPixels(adaptive.renderer.targets().raw.current().read<glm::vec4>(),
-                              plain.renderer.targets().raw.current().read<glm::vec4>()) == 0);
+        CHECK(differingPixels(
+                  adaptive.renderer.targets().signals[0].raw.current().read<glm::vec4>(),
+                  plain.renderer.targets().signals[0].raw.current().read<glm::vec4>()) == 0);
         if (frame == 0)
             continue;
         // They are paid for: up to one more pair of rays in nine.
@@ -152,8 +153,8 @@ TEST_CASE("samples beside the picture say what merged samples say, bit for bit")
             merged.renderer.render(merged.input(frame), settingsOf(Filter::Asvgf));
             extra.renderer.render(extra.input(frame), withExtraSamples(Filter::Asvgf));
         }
-        const auto a = merged.renderer.targets().filters[0].gradientSamples.read<glm::vec4>();
-        const auto b = extra.renderer.targets().filters[0].gradientSamples.read<glm::vec4>();
+        const auto a = imageOf(merged.renderer.targets(), svgf::kGradientSamples).read<glm::vec4>();
+        const auto b = imageOf(extra.renderer.targets(), svgf::kGradientSamples).read<glm::vec4>();
         for (std::size_t i = 0; i < a.pixels().size(); ++i) {
             REQUIRE(glm::vec2(a.pixels()[i]) == glm::vec2(b.pixels()[i]));
             changed += a.pixels()[i].x != 0.0f;
@@ -171,7 +172,7 @@ TEST_CASE("with samples beside a picture in which nothing changes A-SVGF is SVGF
     for (int i = 0; i < 8; ++i) {
         adaptive.next();
         plain.next();
-        const auto lambda = adaptive.targets().filters[0].lambda.read<float>();
+        const auto lambda = imageOf(adaptive.targets(), svgf::kLambda).read<float>();
         for (const float l : lambda.pixels())
             REQUIRE(l == 0.0f);
         CHECK(differingPixels(adaptive.signal(), plain.signal()) == 0);
@@ -181,38 +182,51 @@ TEST_CASE("with samples beside a picture in which nothing changes A-SVGF is SVGF
         light.on = false;
     adaptive.settings.lighting.signal = int(Signal::Shadows);
     adaptive.next();
-    const auto lambda = adaptive.targets().filters[0].lambda.read<float>();
+    const auto lambda = imageOf(adaptive.targets(), svgf::kLambda).read<float>();
     CHECK(std::ranges::count(lambda.pixels(), 1.0f) > 100); // of 273, some of which are dark
 }
 
 TEST_CASE("frames rendered again from a checkpoint have the same bits") {
     const GlCheck noGlMessages;
-    for (const auto placement : {SamplePlacement::Merged, SamplePlacement::Extra}) {
+    for (const auto& [placement, signal] : {std::pair(SamplePlacement::Merged, Signal::Both),
+                                            {SamplePlacement::Extra, Signal::Both},
+                                            {SamplePlacement::Extra, Signal::Separate}}) {
         CAPTURE(int(placement));
+        CAPTURE(nameOf(signal));
         Bench bench("moving");
         std::vector<FilterRun> runs{{0, settingsOf(Filter::Asvgf)}, {2, settingsOf(Filter::Fixed)}};
-        for (FilterRun& run : runs)
-            run.settings.lighting.gradientSamples = int(placement);
+        bench.settings.lighting = {.signal = int(signal), .gradientSamples = int(placement)};
+        const std::size_t signals = signalsOf(signal).size();
+        const auto images = [&] {
+            std::vector<Image<glm::vec4>> all;
+            for (const FilterRun& run : runs)
+                for (std::size_t i = 0; i < signals; ++i)
+                    all.push_back(bench.renderer.filteredSignal(run.state, i).read<glm::vec4>());
+            return all;
+        };
         for (std::uint32_t frame = 0; frame < 3; ++frame)
             bench.render(frame, runs);
         const HistoryCheckpoint kept = bench.renderer.checkpoint();
-        CHECK(kept.bytes() == std::size_t(61 * 37 * (16 + 4 + 16 + 16 + 2 * 32)));
-        std::vector<Image<glm::vec4>> first;
+        CHECK(kept.bytes() == 61u * 37u * (16u + 4u + 16u + signals * (16u + 2u * 32u)));
+        std::vector<std::vector<Image<glm::vec4>>> first;
         for (std::uint32_t frame = 3; frame < 7; ++frame) {
             bench.render(frame, runs);
-            for (const FilterRun& run : runs)
-                first.push_back(signalOf(bench.renderer, run.state));
+            first.push_back(images());
         }
         bench.render(40, {runs.data(), 1});
-        bench.renderer.beginReference(bench.input(3), runs[0].settings);
+        FrameSettings other = bench.settings;
+        other.lighting.signal = int(Signal::AmbientOcclusion);
+        bench.renderer.beginReference(bench.input(3), other);
         bench.renderer.addReferenceSamples(2);
         bench.renderer.finishReference();
         bench.renderer.restore(kept);
         std::size_t next = 0;
         for (std::uint32_t frame = 3; frame < 7; ++frame) {
             bench.render(frame, runs);
-            for (const FilterRun& run : runs)
-                CHECK(differingPixels(first[next++], signalOf(bench.renderer, run.state)) == 0);
+            const auto again = images();
+            for (std::size_t i = 0; i < again.size(); ++i)
+                CHECK(differingPixels(first[next][i], again[i]) == 0);
+            ++next;
         }
         bench.renderer.resize({5, 3});
         CHECK_THROWS_AS(bench.renderer.restore(kept), std::logic_error);
@@ -237,12 +251,13 @@ TEST_CASE("a listener hears of every pass in order, with what it made") {
     bench.render(0, {&run, 1});
     CHECK(ear.passes ==
           std::vector<std::string>{"visibility",       "resolve",          "forward projection",
-                                   "surface",          "lighting",         "gradient",
+                                   "surface",          "strata",           "lighting",
+                                   "gradient",         "gradient a-trous", "gradient a-trous",
                                    "gradient a-trous", "gradient a-trous", "gradient a-trous",
-                                   "gradient a-trous", "gradient a-trous", "lambda",
-                                   "temporal",         "variance",         "a-trous",
+                                   "lambda",           "temporal",         "variance",
                                    "a-trous",          "a-trous",          "a-trous",
-                                   "a-trous",          "composite",        "tone map"});
+                                   "a-trous",          "a-trous",          "composite",
+                                   "tone map"});
     REQUIRE(ear.blends.size() == 5);
     for (std::size_t i = 1; i < 5; ++i)
         CHECK(differingPixels(ear.blends[i - 1], ear.blends[i]) > 500);

@@ -92,8 +92,8 @@ TEST_CASE("irradiance under a rectangular light is that of the closed form") {
     const glm::dvec3 radiance = emissionOf(scene);
     Sequence sequence(scene, {33, 21}, settingsOf(Filter::None, Signal::Shadows));
     const Image<glm::vec4> signal = sequence.reference(4096);
-    const Image<glm::uvec4> surface = sequence.targets().surface.read<glm::uvec4>();
-    const Image<glm::vec4> guides = sequence.targets().guides.current().read<glm::vec4>();
+    const Image<glm::uvec4> surface = sequence.targets().surfaces.surface.read<glm::uvec4>();
+    const Image<glm::vec4> guides = sequence.targets().surfaces.guides.read<glm::vec4>();
     int compared = 0;
     double largest = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < signal.pixels().size(); ++i) {
@@ -124,8 +124,8 @@ TEST_CASE("the penumbra behind a straight edge is the analytic ramp") {
         openSide(-1.0, 0.0, 0.0);
     Sequence sequence(scene, {64, 40}, settingsOf(Filter::None, Signal::Shadows));
     const Image<glm::vec4> signal = sequence.reference(4096);
-    const Image<glm::uvec4> surface = sequence.targets().surface.read<glm::uvec4>();
-    const Image<glm::vec4> guides = sequence.targets().guides.current().read<glm::vec4>();
+    const Image<glm::uvec4> surface = sequence.targets().surfaces.surface.read<glm::uvec4>();
+    const Image<glm::vec4> guides = sequence.targets().surfaces.guides.read<glm::vec4>();
     int penumbra = 0, umbra = 0, open = 0;
     double largest = 0.0;
     for (std::size_t i = 0; i < signal.pixels().size(); ++i) {

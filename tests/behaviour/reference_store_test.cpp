@@ -80,7 +80,7 @@ TEST_CASE("a reference from memory or from a folder is, bit for bit, the one tha
     CHECK(made.rays > 40 * 61 * 37 / 2);
     CHECK(made.rays <= 2 * 40 * 61 * 37);
     CHECK(made.residual > 0.0);
-    CHECK(differingPixels(made.signal, studio.reference(now, then, 40)) == 0);
+    CHECK(differingPixels(made.signals[0], studio.reference(now, then, 40)) == 0);
 
     ReferenceStore other(thisMaker(), ReferenceCache(folder.path()));
     for (ReferenceStore* store : {&fresh, &other, &other}) {
@@ -89,7 +89,7 @@ TEST_CASE("a reference from memory or from a folder is, bit for bit, the one tha
         const Reference again = store->get(studio.renderer, now, then, studio.settings, 40, tell);
         CHECK(told == 40);
         CHECK(again.cached);
-        CHECK(differingPixels(again.signal, made.signal) == 0);
+        CHECK(differingPixels(again.signals[0], made.signals[0]) == 0);
         CHECK(again.residual == made.residual);
         CHECK(again.rays == made.rays);
         CHECK(again.milliseconds == made.milliseconds);
@@ -124,7 +124,7 @@ TEST_CASE("a damaged entry is converged again and mended") {
         const Warnings warnings;
         const Reference again = get();
         CHECK_FALSE(again.cached);
-        CHECK(differingPixels(again.signal, made.signal) == 0);
+        CHECK(differingPixels(again.signals[0], made.signals[0]) == 0);
         REQUIRE(warnings.texts.size() == 1);
         CHECK(warnings.texts[0].find(".exr") != std::string::npos);
     }
@@ -159,8 +159,8 @@ TEST_CASE("a reference has the same bits whatever the portions its samples are a
         for (int done = 0; done < kSamples; done += portion)
             studio.renderer.addReferenceSamples(std::min(portion, kSamples - done));
         studio.renderer.finishReference();
-        CHECK(differingPixels(studio.renderer.filteredSignal().read<glm::vec4>(), made.signal) ==
-              0);
+        CHECK(differingPixels(studio.renderer.filteredSignal().read<glm::vec4>(),
+                              made.signals[0]) == 0);
         CHECK(studio.renderer.readStats().rays == made.rays);
     }
 }

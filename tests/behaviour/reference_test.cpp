@@ -44,10 +44,10 @@ TEST_CASE("under other lights a still scene's surfaces are what they are, lit by
         const FrameInput now = studio.at(0.0), before = studio.at(0.0, others);
         const auto plain = studio.reference(before, 16);
         const auto lit = studio.reference(now, 16);
-        const auto emission = studio.targets().emission.read<glm::vec4>();
+        const auto emission = studio.targets().surfaces.emission.read<glm::vec4>();
         CHECK(differingPixels(studio.reference(now, before, 16), plain) == 0);
         // The lamp in the picture is that of the moment that is seen.
-        CHECK(differingPixels(studio.targets().emission.read<glm::vec4>(), emission) == 0);
+        CHECK(differingPixels(studio.targets().surfaces.emission.read<glm::vec4>(), emission) == 0);
         CHECK(differingPixels(lit, plain) > 61 * 37 / 2);
     }
 }
@@ -60,9 +60,9 @@ TEST_CASE("what does not move has, one frame ago, the light that the picture of 
     const auto picture = studio.reference(studio.at(then), 64);
     const auto seenThen = studio.visibility();
     const auto today = studio.reference(studio.at(now), 64);
-    const auto guides = studio.targets().guides.current().read<glm::vec4>();
-    const auto surface = studio.targets().surface.read<glm::uvec4>();
-    const auto albedo = studio.targets().albedo.read<glm::vec4>();
+    const auto guides = studio.targets().surfaces.guides.read<glm::vec4>();
+    const auto surface = studio.targets().surfaces.surface.read<glm::uvec4>();
+    const auto albedo = studio.targets().surfaces.albedo.read<glm::vec4>();
     const auto seenNow = studio.visibility();
     const auto placed = studio.reference(studio.at(now), studio.at(then), 64);
 
@@ -85,9 +85,9 @@ TEST_CASE("what does not move has, one frame ago, the light that the picture of 
     CHECK(uncovered > 20);
     // The images of the frame are those of now.
     const RenderTargets& t = studio.targets();
-    CHECK(differingPixels(t.guides.current().read<glm::vec4>(), guides) == 0);
-    CHECK(differingPixels(t.surface.read<glm::uvec4>(), surface) == 0);
-    CHECK(differingPixels(t.albedo.read<glm::vec4>(), albedo) == 0);
+    CHECK(differingPixels(t.surfaces.guides.read<glm::vec4>(), guides) == 0);
+    CHECK(differingPixels(t.surfaces.surface.read<glm::uvec4>(), surface) == 0);
+    CHECK(differingPixels(t.surfaces.albedo.read<glm::vec4>(), albedo) == 0);
     CHECK(differingPixels(studio.visibility(), seenNow) == 0);
     // And the next moment is not disturbed.
     CHECK(differingPixels(studio.reference(studio.at(now), 64), today) == 0);
@@ -159,8 +159,8 @@ TEST_CASE("a lamp that has moved lights the floor from where it was, as the inte
                             .values = {glm::vec4(0.0f), glm::vec4(0.8f, 0.5f, 0.0f, 0.0f)}});
     Studio studio(scene, {33, 21}, Signal::Shadows);
     const auto signal = studio.reference(studio.at(0.0), studio.at(0.5), 1024);
-    const auto surface = studio.targets().surface.read<glm::uvec4>();
-    const auto guides = studio.targets().guides.current().read<glm::vec4>();
+    const auto surface = studio.targets().surfaces.surface.read<glm::uvec4>();
+    const auto guides = studio.targets().surfaces.guides.read<glm::vec4>();
     int compared = 0;
     double largest = 0.0, mean = 0.0;
     for (std::size_t i = 0; i < signal.pixels().size(); ++i) {
@@ -202,7 +202,7 @@ TEST_CASE(
         FrameInput input = studio.at(0.0);
         input.frame = std::uint32_t(frame);
         studio.renderer.render(input, studio.settings);
-        const auto raw = studio.targets().raw.current().read<glm::vec4>();
+        const auto raw = studio.targets().signals[0].raw.current().read<glm::vec4>();
         for (std::size_t i = 0; i < sum.size(); ++i) {
             sum[i] += glm::dvec3(raw.pixels()[i]);
             l[i] += raw.pixels()[i].a;
@@ -238,7 +238,7 @@ TEST_CASE("thousands of samples are summed without loss") {
     studio.renderer.beginReference(studio.at(0.0), studio.settings);
     for (int k = 0; k < kSamples; ++k) {
         studio.renderer.addReferenceSamples(1);
-        const auto raw = studio.targets().raw.current().read<glm::vec4>();
+        const auto raw = studio.targets().signals[0].raw.current().read<glm::vec4>();
         for (std::size_t i = 0; i < exact.size(); ++i) {
             exact[i] += raw.pixels()[i].g;
             plain[i] += raw.pixels()[i].g;

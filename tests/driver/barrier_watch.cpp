@@ -117,6 +117,11 @@ struct BarrierWatch::Overrides {
               GLenum format, GLenum type, const void* pixels),
              (texture, level, x, y, width, height, format, type, pixels),
              w.use(texture, GL_TEXTURE_UPDATE_BARRIER_BIT, "writing"))
+    STAND_IN(writeLayer, PFNGLTEXTURESUBIMAGE3DPROC, TextureSubImage3D,
+             (GLuint texture, GLint level, GLint x, GLint y, GLint z, GLsizei width, GLsizei height,
+              GLsizei depth, GLenum format, GLenum type, const void* pixels),
+             (texture, level, x, y, z, width, height, depth, format, type, pixels),
+             w.use(texture, GL_TEXTURE_UPDATE_BARRIER_BIT, "writing a layer of"))
     STAND_IN(clear, PFNGLCLEARTEXIMAGEPROC, ClearTexImage,
              (GLuint texture, GLint level, GLenum format, GLenum type, const void* data),
              (texture, level, format, type, data),

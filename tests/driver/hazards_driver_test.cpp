@@ -24,7 +24,7 @@ using namespace afterglow::test;
 namespace {
 
 /// Textures that are cleared right before each use of them: what they count or sum up begins at 0.
-const std::set<std::string> kClearedForUse{"sum, lost", "counters", "reason counts"};
+const std::set<std::string> kClearedForUse{"sum", "sum, lost", "counters", "reason counts"};
 
 /// Everything that the renderer does, as it comes out without any hazard.
 const Outputs& plainOutputs() {
@@ -78,14 +78,15 @@ TEST_CASE("no frame depends on what new textures and buffers hold, or on their f
     CHECK(differences(plain, renderEverything(samplerShaders())) == "");
     MESSAGE(poisoned.texturesPoisoned(), " textures and ", poisoned.buffersPoisoned(),
             " buffers held garbage");
-    CHECK(poisoned.texturesPoisoned() > 1000);
+    CHECK(poisoned.texturesPoisoned() > 500);
     CHECK(poisoned.buffersPoisoned() > 10);
 }
 
 TEST_CASE("a clear that is missing shows where storage holds garbage") {
     const GlCheck noGlMessages;
     const Outputs& plain = plainOutputs();
-    for (const auto& [texture, output] : {std::pair{"sum, lost", "reference: mean"},
+    for (const auto& [texture, output] : {std::pair{"sum", "reference: mean"},
+                                          {"sum, lost", "reference: mean"},
                                           {"counters", "svgf: stats 0"},
                                           {"reason counts", "instruments: reasons"}}) {
         CAPTURE(std::string(texture));
@@ -218,12 +219,13 @@ TEST_CASE("a result that depends on the order of workgroups shows in the reverse
     const auto render = [&](bool firstWins, bool reversed) {
         ShaderLibrary shaders = freshShaders();
         const RewrittenShaders rewritten([&](std::string_view name, std::string text) {
-            const std::string call = "imageAtomicMax(owners, landed, claimKey(s))";
-            if (name == "denoise/forward_claim.comp")
-                text =
-                    replaced(std::move(text), call,
-                             firstWins ? "imageAtomicCompSwap(owners, landed % 2, 0u, claimKey(s))"
-                                       : "imageAtomicMax(owners, landed % 2, claimKey(s))");
+            if (name == "denoise/forward_claim.comp") {
+                text = replaced(std::move(text), "stratumOf(landed)", "stratumOf(landed) % 2");
+                if (firstWins)
+                    text = replaced(
+                        replaced(std::move(text), "imageAtomicMax(", "imageAtomicCompSwap("),
+                        ", claimKey(s))", ", 0u, claimKey(s))");
+            }
             return reversed ? withReversedGroups(std::move(text)) : text;
         });
         return renderFilter(shaders, settingsOf(Filter::Asvgf));

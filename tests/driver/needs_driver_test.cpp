@@ -7,9 +7,18 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <string>
 
 using namespace afterglow;
 using namespace afterglow::test;
+
+TEST_CASE("the driver is the one that Mesa was asked for") {
+    const char* wanted = std::getenv("MESA_LOADER_DRIVER_OVERRIDE");
+    const std::string renderer = glInfo(testContext()).renderer;
+    MESSAGE(renderer);
+    CHECK((!wanted || renderer.starts_with(wanted)));
+}
 
 // Beyond these minima the renderer needs one thing, which depends on the scene: buffers of texels
 // longer than the 65,536 texels of MAX_TEXTURE_BUFFER_SIZE. TexelBuffer says so where a driver has

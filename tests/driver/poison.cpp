@@ -19,7 +19,8 @@ PoisonedStorage* PoisonedStorage::active = nullptr;
 
 PoisonedStorage::PoisonedStorage(std::set<std::string> clearedForUse)
     : clearedForUse_(std::move(clearedForUse)), storage2D_(glad_glTextureStorage2D, storage2D),
-      clear_(glad_glClearTexImage, clearImage), buffer_(glad_glNamedBufferStorage, bufferStorage),
+      storage3D_(glad_glTextureStorage3D, storage3D), clear_(glad_glClearTexImage, clearImage),
+      buffer_(glad_glNamedBufferStorage, bufferStorage),
       clearBuffer_(glad_glClearNamedBufferData, clearBuffer),
       dispatch_(glad_glDispatchCompute, dispatch), draw_(glad_glDrawElements, draw) {
     active = this;
@@ -29,20 +30,23 @@ PoisonedStorage::~PoisonedStorage() {
     active = nullptr;
 }
 
-void PoisonedStorage::poison(GLuint texture, GLenum format) {
+void PoisonedStorage::poison(GLuint texture, GLsizei levels, GLenum format) {
     ++textures_;
     const std::array<std::uint32_t, 4> bits{kNotANumber, kNotANumber, kNotANumber, kNotANumber};
     const float depth = 0.9f;
     const auto fill = [&](GLenum layout, GLenum type, const void* with) {
-        clear_.before()(texture, 0, layout, type, with);
+        for (GLsizei level = 0; level < levels; ++level)
+            clear_.before()(texture, level, layout, type, with);
     };
     switch (format) {
     case GL_R32F: return fill(GL_RED, GL_FLOAT, bits.data());
     case GL_RG32F: return fill(GL_RG, GL_FLOAT, bits.data());
+    case GL_RGBA16F:
     case GL_RGBA32F: return fill(GL_RGBA, GL_FLOAT, bits.data());
     case GL_R32UI: return fill(GL_RED_INTEGER, GL_UNSIGNED_INT, bits.data());
     case GL_RG32UI: return fill(GL_RG_INTEGER, GL_UNSIGNED_INT, bits.data());
     case GL_RGBA32UI: return fill(GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits.data());
+    case GL_SRGB8_ALPHA8:
     case GL_RGBA8: return fill(GL_RGBA, GL_UNSIGNED_BYTE, bits.data());
     case GL_DEPTH_COMPONENT32F: return fill(GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
     default: throw std::logic_error("poison: no garbage for format " + std::to_string(format));
@@ -53,7 +57,14 @@ void PoisonedStorage::storage2D(GLuint texture, GLsizei levels, GLenum format, G
                                 GLsizei height) {
     active->storage2D_.before()(texture, levels, format, width, height);
     active->fresh_.insert(texture);
-    active->poison(texture, format);
+    active->poison(texture, levels, format);
+}
+
+void PoisonedStorage::storage3D(GLuint texture, GLsizei levels, GLenum format, GLsizei width,
+                                GLsizei height, GLsizei depth) {
+    active->storage3D_.before()(texture, levels, format, width, height, depth);
+    active->fresh_.insert(texture);
+    active->poison(texture, levels, format);
 }
 
 void PoisonedStorage::clearImage(GLuint texture, GLint level, GLenum format, GLenum type,

@@ -24,6 +24,8 @@ public:
 private:
     static void GLAPIENTRY storage2D(GLuint texture, GLsizei levels, GLenum format, GLsizei width,
                                      GLsizei height);
+    static void GLAPIENTRY storage3D(GLuint texture, GLsizei levels, GLenum format, GLsizei width,
+                                     GLsizei height, GLsizei depth);
     static void GLAPIENTRY clearImage(GLuint texture, GLint level, GLenum format, GLenum type,
                                       const void* data);
     static void GLAPIENTRY bufferStorage(GLuint buffer, GLsizeiptr size, const void* data,
@@ -32,13 +34,14 @@ private:
                                        const void* data);
     static void GLAPIENTRY dispatch(GLuint x, GLuint y, GLuint z);
     static void GLAPIENTRY draw(GLenum mode, GLsizei count, GLenum type, const void* indices);
-    void poison(GLuint texture, GLenum format);
+    void poison(GLuint texture, GLsizei levels, GLenum format);
 
     static PoisonedStorage* active;
     std::set<std::string> clearedForUse_;
     std::set<GLuint> fresh_; ///< textures that were made since a shader last ran
     int textures_ = 0, buffers_ = 0;
     GlOverride<PFNGLTEXTURESTORAGE2DPROC> storage2D_;
+    GlOverride<PFNGLTEXTURESTORAGE3DPROC> storage3D_;
     GlOverride<PFNGLCLEARTEXIMAGEPROC> clear_;
     GlOverride<PFNGLNAMEDBUFFERSTORAGEPROC> buffer_;
     GlOverride<PFNGLCLEARNAMEDBUFFERDATAPROC> clearBuffer_;

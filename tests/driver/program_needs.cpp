@@ -56,18 +56,18 @@ void addUniforms(ProgramNeeds& needs, GLuint program) {
             continue;
         const int elements = property(program, GL_UNIFORM, i, GL_ARRAY_SIZE);
         switch (const auto type = GLenum(property(program, GL_UNIFORM, i, GL_TYPE))) {
-        case GL_UNSIGNED_INT_SAMPLER_BUFFER:
-            needs.texelBuffers += elements;
-            needs.samplers += elements;
-            break;
+        case GL_SAMPLER_BUFFER:
+        case GL_UNSIGNED_INT_SAMPLER_BUFFER: needs.texelBuffers += elements; [[fallthrough]];
         case GL_SAMPLER_2D:
-        case GL_UNSIGNED_INT_SAMPLER_2D: needs.samplers += elements; break;
-        case GL_UNSIGNED_INT_IMAGE_BUFFER:
-            needs.texelBuffers += elements;
-            needs.images += elements;
-            break;
+        case GL_UNSIGNED_INT_SAMPLER_2D:
+        case GL_SAMPLER_2D_ARRAY:
+        case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY: needs.samplers += elements; break;
+        case GL_IMAGE_BUFFER:
+        case GL_UNSIGNED_INT_IMAGE_BUFFER: needs.texelBuffers += elements; [[fallthrough]];
         case GL_IMAGE_2D:
-        case GL_UNSIGNED_INT_IMAGE_2D: needs.images += elements; break;
+        case GL_UNSIGNED_INT_IMAGE_2D:
+        case GL_IMAGE_2D_ARRAY:
+        case GL_UNSIGNED_INT_IMAGE_2D_ARRAY: needs.images += elements; break;
         default: needs.looseUniforms += elements * componentsOf(type);
         }
     }

@@ -5,7 +5,6 @@
 #include "renderer/passes/difference_pass.h"
 #include "renderer/passes/probe_pass.h"
 #include "renderer/passes/reason_pass.h"
-#include "renderer/pipeline/denoise_plan.h"
 #include "renderer/pipeline/renderer.h"
 #include "renderer/scene/procedural.h"
 #include "tests/support/gl_fixture.h"
@@ -14,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace afterglow::test {
 
@@ -46,8 +46,9 @@ public:
                 .seed = 3,
                 .lights = lights_};
     }
-    void render(std::uint32_t frame, const std::vector<FilterRun>& runs) {
-        renderer.render(input(frame), runs);
+    void render(std::uint32_t frame, const FrameSettings& settings,
+                const std::vector<FilterRun>& runs) {
+        renderer.render(input(frame), settings, runs);
         for (const FilterRun& run : runs)
             noteFilter(run, frame);
         const FrameStats stats = renderer.readStats();
@@ -81,21 +82,21 @@ private:
     void noteFilter(const FilterRun& run, std::uint32_t frame) {
         const std::string at = " " + std::to_string(run.state) + " of " + std::to_string(frame);
         const RenderTargets& t = renderer.targets();
-        const FilterTargets& own = t.filters[run.state];
-        const DenoisePlan plan = makePlan(run.settings.filter, run.settings.denoiser);
-        for (const GpuTexture* shared :
-             {&t.visibility.current(), &t.seeds.current(), &t.surface, &t.guides.current(),
-              &t.slope, &t.motion, &t.albedo, &t.emission, &t.raw.current()})
-            note(shared->label() + at, *shared);
-        note("signal" + at, renderer.filteredSignal(run.state));
-        note("display" + at, own.display);
-        if (plan.accumulate)
-            for (const GpuTexture* filter :
-                 {&own.color.current(), &own.moments.current(), &own.control})
-                note(filter->label() + at, *filter);
-        if (plan.useLambda)
-            for (const GpuTexture* strata : {&t.samples, &own.gradientSamples, &own.lambda})
-                note(strata->label() + at, *strata);
+        for (const GpuTexture* image : t.surfaces.all())
+            note(image->label() + at, *image);
+        note("seeds" + at, t.seeds.current());
+        if (needsOf(run.settings).lambda)
+            note("samples" + at, t.samples);
+        for (std::size_t signal = 0; signal < renderer.signals().size(); ++signal) {
+            const std::string of = at + " signal " + std::to_string(signal);
+            note("raw" + of, t.signals[signal].raw.current());
+            note("filtered" + of, renderer.filteredSignal(run.state, signal));
+            for (const FilterAov& aov : familyOf(run.settings.filter).aovs)
+                if (const auto image = renderer.filterImage(aov.info.name, run.state, signal);
+                    image.texture)
+                    note(std::string(aov.info.name) + of, *image.texture);
+        }
+        note("display" + at, renderer.display(run.state));
     }
 
     Camera camera_;
@@ -105,10 +106,10 @@ private:
 void renderFilterAt(Desk& desk, const Settings& settings) {
     const std::vector<FilterRun> run{{0, settings}};
     desk.renderer.resize(kOtherSize);
-    desk.render(0, run);
+    desk.render(0, settings, run);
     desk.renderer.resize(kSize);
     for (int frame = 1; frame <= kFrames; ++frame)
-        desk.render(std::uint32_t(frame), run);
+        desk.render(std::uint32_t(frame), settings, run);
 }
 
 Settings withPlacement(Filter filter, SamplePlacement placement) {
@@ -121,48 +122,49 @@ void renderTogether(Desk& desk, SamplePlacement placement) {
     desk.chapter = placement == SamplePlacement::Merged ? "together" : "together, extra samples";
     desk.renderer.resize(kOtherSize);
     desk.renderer.resize(kSize);
-    std::vector<FilterRun> runs{{3, withPlacement(Filter::Asvgf, placement)},
-                                {1, withPlacement(Filter::Fixed, placement)}};
-    desk.render(0, runs);
-    runs.push_back({0, withPlacement(Filter::Percentile, placement)});
-    desk.render(1, runs);
+    const Settings shared = withPlacement(Filter::Asvgf, placement);
+    std::vector<FilterRun> runs{{3, shared}, {1, settingsOf(Filter::Fixed)}};
+    desk.render(0, shared, runs);
+    runs.push_back({0, settingsOf(Filter::Percentile)});
+    desk.render(1, shared, runs);
     const HistoryCheckpoint kept = desk.renderer.checkpoint();
-    desk.render(2, runs);
+    desk.render(2, shared, runs);
     desk.renderer.restore(kept);
     desk.chapter += ", again";
-    desk.render(2, runs);
+    desk.render(2, shared, runs);
 }
 
 void renderReferences(Desk& desk) {
     const Settings settings = settingsOf(Filter::None);
     const auto converge = [&](const char* name, std::uint32_t seen, std::uint32_t world) {
         desk.chapter = name;
-        // The lights of an input are the desk's own: the same for both moments.
-        const FrameInput first = desk.input(seen), second = desk.input(world);
-        desk.renderer.beginReference(first, second, settings);
+        desk.renderer.beginReference(desk.input(seen), desk.input(world), settings);
         desk.renderer.addReferenceSamples(2);
-        desk.note("mean", (desk.renderer.finishReference(), desk.renderer.filteredSignal()));
-        desk.note("display", desk.renderer.targets().filters[0].display);
+        desk.note("display", desk.renderer.finishReference());
+        desk.note("mean", desk.renderer.filteredSignal());
     };
     converge("reference", 5, 5);
     converge("reference of two moments", 5, 4);
     desk.chapter = "shown reference";
-    desk.note("display",
-              desk.renderer.showReference(Image<glm::vec4>(kSize, glm::vec4(0.25f)), settings));
+    const Image<glm::vec4> gray(kSize, glm::vec4(0.25f));
+    desk.note("display", desk.renderer.showReference({&gray, 1}, settings));
 }
 
 void lookAtFrame(Desk& desk, ShaderLibrary& shaders) {
     desk.chapter = "instruments";
-    desk.render(7, {{0, settingsOf(Filter::Asvgf)}});
+    const Settings settings = settingsOf(Filter::Asvgf);
+    desk.render(7, settings, {{0, settings}});
     const RenderTargets& t = desk.renderer.targets();
-    const FilterTargets& own = t.filters[0];
+    const Surfaces& surfaces = t.surfaces;
+    const History& raw = t.signals[0].raw;
+    const GpuTexture& control = *desk.renderer.filterImage("alpha").texture;
     FrameContext context{desk.renderer.timer()};
 
     ProbePass probe(shaders);
     for (const glm::ivec2 size : {glm::ivec2(5, 40), kSize}) {
         probe.run(context,
-                  {desk.renderer.filteredSignal(), t.raw.current(), t.albedo, t.guides.current(),
-                   own.control},
+                  {desk.renderer.filteredSignal(), raw.current(), surfaces.albedo, surfaces.guides,
+                   control},
                   {7, 3}, size);
         const ProbeReading r = probe.read();
         Hash hash;
@@ -173,7 +175,7 @@ void lookAtFrame(Desk& desk, ShaderLibrary& shaders) {
     }
     ReasonPass reasons(shaders);
     for (const GpuTexture* samples : {static_cast<const GpuTexture*>(nullptr), &t.samples}) {
-        reasons.run(context, {own.control, t.guides.current(), samples});
+        reasons.run(context, {control, surfaces.guides, samples});
         const ReasonCounts counts = reasons.read();
         std::string text;
         for (const std::uint32_t n : counts.history)
@@ -183,13 +185,14 @@ void lookAtFrame(Desk& desk, ShaderLibrary& shaders) {
         desk.note("reasons", text);
     }
     GpuTexture difference("difference", PixelFormat::RGBA32F, kSize);
-    DifferencePass(shaders).run(context, t.raw.current(), t.raw.previous(), difference);
+    DifferencePass(shaders).run(context, raw.current(), raw.previous(), difference);
     desk.note("difference", difference);
     GpuTexture view("view", PixelFormat::RGBA8, kSize);
     DebugViewPass debugView(shaders);
-    debugView.run(context, t.motion, view, {gpu::kMapDirection, 0, 1, 0, 0.0f, 1.0f, 0.0f, 0.0f});
+    debugView.run(context, surfaces.motion, view,
+                  {gpu::kMapDirection, 0, 1, 0, 0.0f, 1.0f, 0.0f, 0.0f});
     desk.note("view of motion", view);
-    debugView.run(context, t.visibility.current(), view,
+    debugView.run(context, surfaces.visibility, view,
                   {gpu::kMapNumber, 0, 1, 0, 0.0f, 1.0f, 0.0f, 0.0f});
     desk.note("view of instances", view);
 }
@@ -211,8 +214,10 @@ Outputs renderEverything(ShaderLibrary& shaders) {
     }
     desk.chapter = "extra samples";
     renderFilterAt(desk, withPlacement(Filter::Asvgf, SamplePlacement::Extra));
-    for (const Signal signal : {Signal::Shadows, Signal::AmbientOcclusion}) {
-        desk.chapter = signal == Signal::Shadows ? "shadows" : "ambient occlusion";
+    for (const Signal signal : {Signal::Shadows, Signal::AmbientOcclusion, Signal::Separate}) {
+        desk.chapter = signal == Signal::Shadows            ? "shadows"
+                       : signal == Signal::AmbientOcclusion ? "ambient occlusion"
+                                                            : "signals apart";
         Settings settings = settingsOf(Filter::Asvgf, signal);
         settings.denoiser.kernel = int(Kernel::Box3x3);
         renderFilterAt(desk, settings);

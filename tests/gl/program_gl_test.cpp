@@ -388,12 +388,12 @@ TEST_CASE("dispatch refuses parameters that are not of the size of the block") {
     CHECK_NOTHROW(plain.dispatch(kOdd, {}, {}));
 }
 
-TEST_CASE("dispatch leaves the frame's block as it is bound") {
+TEST_CASE("a uniform block is read under its name, another one in the next dispatch") {
     testContext();
     const GlCheck check;
-    GpuBuffer frame("frame", 16);
-    frame.write(std::array{glm::vec4(1, 2, 3, 4)});
-    glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, frame.id());
+    GpuBuffer first("first", 16), second("second", 16);
+    first.write(std::array{glm::vec4(1, 2, 3, 4)});
+    second.write(std::array{glm::vec4(5, 6, 7, 8)});
     ComputeProgram program = compile("frame.comp", R"(
 layout(std140, binding = 0) uniform Frame { vec4 ofFrame; };
 layout(std140, binding = 1) uniform Params { vec4 ofPass; };
@@ -401,10 +401,25 @@ uniform writeonly image2D result;
 void main() { imageStore(result, ivec2(gl_GlobalInvocationID.xy), ofFrame + ofPass); }
 )");
     GpuTexture result("result", PixelFormat::RGBA32F, {8, 8});
-    program.dispatch({8, 8}, glm::vec4(10), {}, {{"result", result}});
-    program.dispatch({8, 8}, glm::vec4(20), {}, {{"result", result}});
-    CHECK_CLOSE(result.read<glm::vec4>(), Image<glm::vec4>({8, 8}, {21, 22, 23, 24}), Tolerance{});
-    glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, 0);
+    const auto run = [&](const GpuBuffer& block, float add) {
+        program.dispatch({8, 8}, glm::vec4(add), {{"Frame", block}}, {{"result", result}});
+        return result.read<glm::vec4>();
+    };
+    CHECK_CLOSE(run(first, 10), Image<glm::vec4>({8, 8}, {11, 12, 13, 14}), Tolerance{});
+    CHECK_CLOSE(run(second, 10), Image<glm::vec4>({8, 8}, {15, 16, 17, 18}), Tolerance{});
+    CHECK_CLOSE(run(first, 20), Image<glm::vec4>({8, 8}, {21, 22, 23, 24}), Tolerance{});
+
+    CHECK(logicErrorOf([&] {
+              program.dispatch({8, 8}, glm::vec4(1), {}, {{"result", result}});
+          }) == "frame.comp uses Frame, result but was not given Frame");
+    CHECK(logicErrorOf([&] {
+              program.dispatch({8, 8}, glm::vec4(1), {{"Frame", result}}, {{"result", result}});
+          }) == "frame.comp declares Frame as a uniform block, but was given a texture of format "
+                "RGBA32F");
+    CHECK(logicErrorOf([&] {
+              program.dispatch({8, 8}, glm::vec4(1), {{"Frame", first}}, {{"result", first}});
+          }) ==
+          "frame.comp declares result as image2D, but was given a buffer with a uniform block");
 }
 
 TEST_CASE("a shader that does not compile is an error at its own line") {

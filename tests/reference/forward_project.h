@@ -13,7 +13,6 @@ struct ForwardInputs {
     const View& view;
     const Image<glm::uvec4>& previousVisibility;
     const Image<std::uint32_t>& previousSeeds;
-    const Image<glm::vec4>& previousRaw;
     const Image<glm::uvec4>& visibility; ///< of frame i, before anything is merged into it
     const Image<std::uint32_t>& seeds;   ///< likewise
     std::uint32_t frame;                 ///< i
@@ -165,6 +164,12 @@ inline ForwardResult forwardProject(const ForwardInputs& in) {
             const bool landed = own.fate == Fate::Landed;
             const bool lost = landed && own.key != best(own.landing / 3);
             out.samples(s).w = lost ? gpu::kFateLostRace : codeOf(own.fate);
+            const bool fell =
+                landed || own.fate == Fate::OtherInstance || own.fate == Fate::OtherDepth;
+            const auto packed = [](glm::ivec2 p) {
+                return std::uint32_t(p.x) | std::uint32_t(p.y) << 16;
+            };
+            out.samples(s).x = fell ? packed(own.landing) : 0u;
             out.doubtfulFate(s) = own.doubtful || (landed && out.doubtful(own.landing / 3)) ? 1 : 0;
             if (best(s) == 0)
                 continue;
@@ -172,10 +177,8 @@ inline ForwardResult forwardProject(const ForwardInputs& in) {
             const glm::ivec2 q = from.landing, part = q - 3 * s;
             out.visibility(q) = in.previousVisibility(from.source);
             out.seeds(q) = in.previousSeeds(from.source);
-            out.samples(s) = {std::bit_cast<std::uint32_t>(in.previousRaw(from.source).a),
-                              std::uint32_t(1 + part.x + 3 * part.y),
-                              std::uint32_t(from.source.x) | std::uint32_t(from.source.y) << 16,
-                              out.samples(s).w};
+            out.samples(s).y = std::uint32_t(1 + part.x + 3 * part.y);
+            out.samples(s).z = packed(from.source);
         }
     return out;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <optional>
 
 #include "shared/bindings.h"
@@ -16,22 +15,18 @@ inline glm::ivec2 strataOf(glm::ivec2 size) {
 
 struct GradientInputs {
     const Image<glm::vec4>& raw;
+    const Image<glm::vec4>& previousRaw;
     const Image<glm::uvec4>& samples;
     const Image<glm::vec4>& guides;
-    const Image<glm::vec2>& slope;
-};
-struct GradientResult {
-    Image<glm::dvec4> gradient; ///< delta, Delta, mean luminance, variance of luminance
-    Image<glm::vec4> guides;    ///< copies, so they compare bit by bit
-    Image<glm::vec2> slope;
 };
 
-/// The gradient samples and the guides of the strata. Schied et al. 2018, section 4.2.
-inline GradientResult gradient(const GradientInputs& in, const gpu::GradientParams& params = {}) {
+/// Of each stratum delta, Delta, mean luminance, variance of luminance. Schied et al. 2018, section
+/// 4.2.
+inline Image<glm::dvec4> gradient(const GradientInputs& in,
+                                  const gpu::GradientParams& params = {}) {
     const glm::ivec2 strata = strataOf(in.raw.size());
     const int edge = int(gpu::kStratumSize);
-    GradientResult out{Image<glm::dvec4>(strata), Image<glm::vec4>(strata),
-                       Image<glm::vec2>(strata)};
+    Image<glm::dvec4> out(strata);
     for (int sy = 0; sy < strata.y; ++sy)
         for (int sx = 0; sx < strata.x; ++sx) {
             const glm::ivec2 s{sx, sy};
@@ -41,14 +36,14 @@ inline GradientResult gradient(const GradientInputs& in, const gpu::GradientPara
                 const int landing = int(sample.y) - 1;
                 const glm::ivec2 pixel = edge * s + glm::ivec2(landing % edge, landing / edge);
                 const double now = in.raw(pixel).a;
-                const double before = std::bit_cast<float>(std::uint32_t(sample.x));
+                const glm::ivec2 source(int(sample.z & 0xffffu), int(sample.z >> 16));
+                const double before = in.previousRaw(source).a;
                 const bool sizeAlone = params.magnitude == gpu::kGradientAbsolute;
-                out.gradient(s).x = sizeAlone ? std::abs(now - before) : now - before;
-                out.gradient(s).y = std::max(now, before);
+                out(s).x = sizeAlone ? std::abs(now - before) : now - before;
+                out(s).y = std::max(now, before);
             }
 
             double count = 0.0, sum = 0.0, squares = 0.0;
-            std::optional<glm::ivec2> guide;
             for (int y = 0; y < edge; ++y)
                 for (int x = 0; x < edge; ++x) {
                     const glm::ivec2 p = edge * s + glm::ivec2(x, y);
@@ -58,20 +53,42 @@ inline GradientResult gradient(const GradientInputs& in, const gpu::GradientPara
                     count += 1.0;
                     sum += l;
                     squares += l * l;
-                    if (!guide)
-                        guide = p;
                 }
-            if (!guide)
+            if (count == 0.0)
                 continue;
             const double mean = sum / count;
-            out.gradient(s).z = mean;
-            out.gradient(s).w = std::max(0.0, squares / count - mean * mean);
+            out(s).z = mean;
+            out(s).w = std::max(0.0, squares / count - mean * mean);
+        }
+    return out;
+}
 
-            const glm::ivec2 center = glm::min(edge * s + edge / 2, in.raw.size() - 1);
-            if (!isBackground(in.guides(center)))
-                guide = center;
-            out.guides(s) = in.guides(*guide);
-            out.slope(s) = in.slope(*guide);
+struct StrataResult { // copies, so they compare bit by bit
+    Image<glm::vec4> guides;
+    Image<glm::vec2> slope;
+};
+
+/// Guides and slope of each stratum: of its center pixel, or of its first one with a surface.
+inline StrataResult strataGuides(const Image<glm::vec4>& guides, const Image<glm::vec2>& slope) {
+    const glm::ivec2 strata = strataOf(guides.size());
+    const int edge = int(gpu::kStratumSize);
+    StrataResult out{Image<glm::vec4>(strata), Image<glm::vec2>(strata)};
+    for (int sy = 0; sy < strata.y; ++sy)
+        for (int sx = 0; sx < strata.x; ++sx) {
+            const glm::ivec2 s{sx, sy};
+            std::optional<glm::ivec2> chosen;
+            for (int k = edge * edge; k-- > 0;) {
+                const glm::ivec2 p = edge * s + glm::ivec2(k % edge, k / edge);
+                if (guides.contains(p) && !isBackground(guides(p)))
+                    chosen = p;
+            }
+            const glm::ivec2 center = glm::min(edge * s + edge / 2, guides.size() - 1);
+            if (!isBackground(guides(center)))
+                chosen = center;
+            if (!chosen)
+                continue;
+            out.guides(s) = guides(*chosen);
+            out.slope(s) = slope(*chosen);
         }
     return out;
 }

@@ -126,10 +126,9 @@ TEST_CASE("errors planted in what NRD does with the gradient do not pass") {
         Verdict verdict;
         const RandomFrame frame({61, 37}, 21);
         const gpu::GradientParams gradient{1e-4f, -1.0f, gpu::kGradientAbsolute, 0.0f};
-        verdict.add(
-            runGradient(shaders, frame, gradient).gradient,
-            reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope}, gradient)
-                .gradient);
+        verdict.add(runGradient(shaders, frame, gradient),
+                    reference::gradient({frame.raw, frame.previousRaw, frame.samples, frame.guides},
+                                        gradient));
         const gpu::EdgeStopping edges{0.0f, 128.0f, 1.0f, 3};
         verdict.add(runGradientAtrous(shaders, frame, Kernel::B3Spline5x5, edges),
                     reference::gradientAtrous(frame.gradient, frame.strataGuides, frame.strataSlope,

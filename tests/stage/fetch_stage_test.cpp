@@ -25,8 +25,8 @@ TEST_CASE("fetching by sampler and by image gives the same bits in every stage")
             each([&](ShaderLibrary& s) { return runGradientAtrous(s, frame, kernel, edges); });
         }
         const gpu::GradientParams gradient{1e-4f, -1.0f, gpu::kGradientAbsolute, 0.0f};
-        each([&](ShaderLibrary& s) { return runGradient(s, frame, gradient).gradient; });
-        each([&](ShaderLibrary& s) { return runGradient(s, frame, gradient).guides; });
+        each([&](ShaderLibrary& s) { return runGradient(s, frame, gradient); });
+        each([&](ShaderLibrary& s) { return runStrata(s, frame).guides; });
         each([&](ShaderLibrary& s) { return runVariance(s, frame, {128.0f, 1.0f, 4.0f, 0.0f}); });
         each([&](ShaderLibrary& s) { return runLambda(s, frame, gradient); });
         each([&](ShaderLibrary& s) {

@@ -80,10 +80,17 @@ Verdict measureGradient(ShaderLibrary& shaders) {
     Verdict verdict;
     const RandomFrame frame({61, 37}, 21);
     const gpu::GradientParams params{1e-4f, -1.0f, gpu::kGradientSigned, 0.0f};
-    const auto strata = runGradient(shaders, frame, params);
-    const auto expected =
-        reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope}, params);
-    verdict.add(strata.gradient, expected.gradient);
+    verdict.add(
+        runGradient(shaders, frame, params),
+        reference::gradient({frame.raw, frame.previousRaw, frame.samples, frame.guides}, params));
+    return verdict;
+}
+
+Verdict measureStrata(ShaderLibrary& shaders) {
+    Verdict verdict;
+    const RandomFrame frame({61, 37}, 21);
+    const auto strata = runStrata(shaders, frame);
+    const auto expected = reference::strataGuides(frame.guides, frame.slope);
     verdict.add(strata.guides, expected.guides);
     verdict.add(strata.slope, expected.slope);
     return verdict;
@@ -220,8 +227,19 @@ TEST_CASE("errors planted in the gradient samples do not pass") {
           "(values[i] - mean) / 9.0"},
          {"variance of a sample", file, "(values[i] - mean) / float(count)",
           "(values[i] - mean) / max(1.0, float(count - 1))"},
-         {"guides of the corner", file, "min(first + 1, last)", "min(first, last)"},
-         {"guides of the last pixel", file, "hasGuide ? guidePixel : p", "p"}});
+         {"the old luminance where the sample landed", file, "unpackPixel(carried.z)",
+          "first + ivec2((carried.y - 1u) % 3u, (carried.y - 1u) / 3u)"},
+         {"the old luminance of this frame", file, "float before = fetch(previousRaw,",
+          "float before = 1e-30 * fetch(previousRaw, s).a + fetch(raw,"}});
+}
+
+TEST_CASE("errors planted in the guides of strata do not pass") {
+    const std::string file = "denoise/strata.comp";
+    checkMutants(measureStrata,
+                 {{"guides of the corner", file, "min(first + 1, last)", "min(first, last)"},
+                  {"guides of the last pixel", file, "i < 9 && !found", "i < 9"},
+                  {"guides of the second pixel", file, "i = 0; i < 9", "i = 1; i < 9"},
+                  {"background has guides", file, "|| fetch(guides, p).w == 0.0", ""}});
 }
 
 TEST_CASE("errors planted in the gradient reconstruction do not pass") {

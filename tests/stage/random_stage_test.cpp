@@ -69,8 +69,9 @@ TEST_CASE("the numbers that follow from a seed are tile, Halton sequence and shi
         FrameData frame;
         frame.uniforms.seed = run;
         frame.begin(Camera{}, kSize);
-        program.dispatch(kSize, {{"wanted", wanted}, {"noiseTile", scene.noiseTile}},
-                         {{"first", first}, {"last", last}});
+        program.dispatch(
+            kSize, {{"Frame", frame.block()}, {"wanted", wanted}, {"noiseTile", scene.noiseTile}},
+            {{"first", first}, {"last", last}});
         const auto numbers = first.read<glm::vec4>(), fifth = last.read<glm::vec4>();
         for (std::size_t i = 0; i < seeds.pixels().size(); ++i)
             for (std::uint32_t d = 0; d < 5; ++d) {

@@ -60,21 +60,21 @@ SceneFrame SceneFrames::next() {
 
     const RenderTargets& t = renderer_.targets();
     out.ids = t.ids.read<glm::uvec2>();
-    out.visibility = t.visibility.current().read<glm::uvec4>();
-    out.previousVisibility = t.visibility.previous().read<glm::uvec4>();
-    out.surface = t.surface.read<glm::uvec4>();
+    out.visibility = t.surfaces.visibility.read<glm::uvec4>();
+    out.previousVisibility = t.previousVisibility.read<glm::uvec4>();
+    out.surface = t.surfaces.surface.read<glm::uvec4>();
     out.samples = t.samples.read<glm::uvec4>();
     out.seeds = t.seeds.current().read<std::uint32_t>();
     out.previousSeeds = t.seeds.previous().read<std::uint32_t>();
-    out.guides = t.guides.current().read<glm::vec4>();
-    out.motion = t.motion.read<glm::vec4>();
-    out.albedo = t.albedo.read<glm::vec4>();
-    out.emission = t.emission.read<glm::vec4>();
-    out.raw = t.raw.current().read<glm::vec4>();
-    out.previousRaw = t.raw.previous().read<glm::vec4>();
+    out.guides = t.surfaces.guides.read<glm::vec4>();
+    out.motion = t.surfaces.motion.read<glm::vec4>();
+    out.albedo = t.surfaces.albedo.read<glm::vec4>();
+    out.emission = t.surfaces.emission.read<glm::vec4>();
+    out.raw = t.signals[0].raw.current().read<glm::vec4>();
+    out.previousRaw = t.signals[0].raw.previous().read<glm::vec4>();
     out.filtered = renderer_.filteredSignal().read<glm::vec4>();
     out.composed = t.filters[0].composed.read<glm::vec4>();
-    out.slope = t.slope.read<glm::vec2>();
+    out.slope = t.surfaces.slope.read<glm::vec2>();
     out.display = t.filters[0].display.read<glm::u8vec4>();
 
     started_ = true;

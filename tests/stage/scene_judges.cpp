@@ -154,13 +154,13 @@ ForwardVerdict judgeForward(const SceneFrame& merged, const SceneFrame& plain) {
     ForwardVerdict verdict;
     const auto expected = reference::forwardProject(
         {merged.scene, merged.view, merged.previousVisibility, merged.previousSeeds,
-         merged.previousRaw, plain.visibility, plain.seeds, merged.frame, merged.runSeed});
+         plain.visibility, plain.seeds, merged.frame, merged.runSeed});
     std::copy_n(expected.fates, reference::kFates, verdict.fates);
     verdict.contested = expected.contested;
     verdict.doubts = expected.doubts;
     forEachPixel(expected.samples.size(), [&](glm::ivec2 s) {
         const glm::uvec4 sample = merged.samples(s), wanted = expected.samples(s);
-        bool same = glm::uvec3(sample) == glm::uvec3(wanted);
+        bool same = sample.y == wanted.y && sample.z == wanted.z;
         for (int k = 0; k < 9; ++k) {
             const glm::ivec2 p = 3 * s + glm::ivec2(k % 3, k / 3);
             if (merged.visibility.contains(p))
@@ -171,7 +171,7 @@ ForwardVerdict judgeForward(const SceneFrame& merged, const SceneFrame& plain) {
         verdict.filled += merged.samples(s).y != 0;
         if (!same)
             ++(expected.doubtful(s) ? verdict.excused : verdict.wrong);
-        if (sample.w != wanted.w)
+        if (sample.w != wanted.w || sample.x != wanted.x)
             ++(expected.doubtfulFate(s) ? verdict.excused : verdict.wrong);
         verdict.lost += sample.w == gpu::kFateLostRace;
     });

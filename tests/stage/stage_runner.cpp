@@ -8,7 +8,6 @@
 #include "renderer/passes/luminance_range_pass.h"
 #include "renderer/passes/temporal_pass.h"
 #include "renderer/passes/variance_pass.h"
-#include "shared/bindings.h"
 #include "shared/frame.h"
 #include "tests/reference/luminance_range.h"
 
@@ -40,11 +39,10 @@ GpuTexture output(std::string_view label, glm::ivec2 size) {
     return upload(label, Image<Pixel>(size, Pixel(-1234.5f)));
 }
 
-/// The frame block, bound for as long as it lives.
-class FrameBlock {
-public:
-    FrameBlock(const RandomFrame& frame, bool historyValid)
-        : buffer_("frame", sizeof(gpu::FrameUniforms)) {
+/// What passes run in: a timer, and a frame's uniform block.
+struct Stage {
+    explicit Stage(const RandomFrame& frame, bool historyValid = true)
+        : block("frame", sizeof(gpu::FrameUniforms)) {
         gpu::FrameUniforms uniforms{};
         uniforms.size = frame.size;
         uniforms.strata = frame.strata;
@@ -52,29 +50,24 @@ public:
         uniforms.historyValid = historyValid ? 1 : 0;
         uniforms.signalClamp = 64.0f;
         uniforms.extent = 40.0f;
-        buffer_.write(std::array{uniforms});
-        glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, buffer_.id());
+        block.write(std::array{uniforms});
     }
-    FrameBlock(const FrameBlock&) = delete;
-    FrameBlock& operator=(const FrameBlock&) = delete;
-    ~FrameBlock() { glBindBufferBase(GL_UNIFORM_BUFFER, gpu::kFrameBlock, 0); }
 
-private:
-    GpuBuffer buffer_;
+    GpuBuffer block;
+    GpuTimer timer{true};
+    FrameContext context{.timer = timer, .uniforms = &block};
 };
 
 } // namespace
 
 Image<glm::vec4> runAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
                            const gpu::EdgeStopping& params) {
-    const FrameBlock block(frame, true);
-    GpuTimer timer(true);
-    FrameContext context{timer};
+    Stage stage(frame);
     const GpuTexture signal = upload("signal", frame.signal);
     const GpuTexture guides = upload("guides", frame.guides);
     const GpuTexture slope = upload("slope", frame.slope);
     GpuTexture filtered = output<glm::vec4>("filtered", frame.size);
-    AtrousPass(shaders, kernel).run(context, {signal, guides, slope}, {filtered}, params);
+    AtrousPass(shaders, kernel).run(stage.context, {signal, guides, slope}, {filtered}, params);
     return filtered.read<glm::vec4>();
 }
 
@@ -92,9 +85,7 @@ Image<glm::vec4> luminanceRanges(const RandomFrame& frame) {
 
 TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, bool historyValid,
                            const gpu::TemporalParams& params) {
-    const FrameBlock block(frame, historyValid);
-    GpuTimer timer(true);
-    FrameContext context{timer};
+    Stage stage(frame, historyValid);
     const GpuTexture raw = upload("raw", frame.raw);
     const GpuTexture visibility = upload("visibility", frame.visibility);
     const GpuTexture previousVisibility = upload("previous visibility", frame.previousVisibility);
@@ -109,7 +100,7 @@ TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, boo
     GpuTexture accumulated = output<glm::vec4>("accumulated", frame.size);
     GpuTexture moments = output<glm::vec4>("moments", frame.size);
     GpuTexture control = output<glm::vec4>("control", frame.size);
-    TemporalPass(shaders).run(context,
+    TemporalPass(shaders).run(stage.context,
                               {.raw = raw,
                                .visibility = visibility,
                                .previousVisibility = previousVisibility,
@@ -127,69 +118,68 @@ TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, boo
 
 Image<glm::vec4> runLuminanceRange(ShaderLibrary& shaders, const RandomFrame& frame,
                                    const gpu::PercentileParams& params) {
-    const FrameBlock block(frame, true);
-    GpuTimer timer(true);
-    FrameContext context{timer};
+    Stage stage(frame);
     const GpuTexture raw = upload("raw", frame.raw);
     const GpuTexture guides = upload("guides", frame.guides);
     GpuTexture range = output<glm::vec4>("luminance range", luminanceRanges(frame).size());
-    LuminanceRangePass(shaders).run(context, {raw, guides}, {range}, params);
+    LuminanceRangePass(shaders).run(stage.context, {raw, guides}, {range}, params);
     return range.read<glm::vec4>();
 }
 
 Image<glm::vec4> runVariance(ShaderLibrary& shaders, const RandomFrame& frame,
                              const gpu::VarianceParams& params) {
-    const FrameBlock block(frame, true);
-    GpuTimer timer(true);
-    FrameContext context{timer};
+    Stage stage(frame);
     const GpuTexture accumulated = upload("accumulated", frame.accumulated);
     const GpuTexture moments = upload("moments", frame.moments);
     const GpuTexture guides = upload("guides", frame.guides);
     const GpuTexture slope = upload("slope", frame.slope);
     GpuTexture filtered = output<glm::vec4>("filtered", frame.size);
-    VariancePass(shaders).run(context, {accumulated, moments, guides, slope}, {filtered}, params);
+    VariancePass(shaders).run(stage.context, {accumulated, moments, guides, slope}, {filtered},
+                              params);
     return filtered.read<glm::vec4>();
 }
 
-GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame,
-                           const gpu::GradientParams& params) {
-    const FrameBlock block(frame, true);
-    GpuTimer timer(true);
-    FrameContext context{timer};
+Image<glm::vec4> runGradient(ShaderLibrary& shaders, const RandomFrame& frame,
+                             const gpu::GradientParams& params) {
+    Stage stage(frame);
     const GpuTexture raw = upload("raw", frame.raw);
+    const GpuTexture previousRaw = upload("previous raw", frame.previousRaw);
     const GpuTexture samples = upload("samples", frame.samples);
     const GpuTexture guides = upload("guides", frame.guides);
-    const GpuTexture slope = upload("slope", frame.slope);
     GpuTexture gradient = output<glm::vec4>("gradient", frame.strata);
+    GradientPass(shaders).run(stage.context, {raw, previousRaw, samples, guides}, {gradient},
+                              params);
+    return gradient.read<glm::vec4>();
+}
+
+StrataImages runStrata(ShaderLibrary& shaders, const RandomFrame& frame) {
+    Stage stage(frame);
+    const GpuTexture guides = upload("guides", frame.guides);
+    const GpuTexture slope = upload("slope", frame.slope);
     GpuTexture strataGuides = output<glm::vec4>("strata guides", frame.strata);
     GpuTexture strataSlope = output<glm::vec2>("strata slope", frame.strata);
-    GradientPass(shaders).run(context, {raw, samples, guides, slope},
-                              {gradient, strataGuides, strataSlope}, params);
-    return {gradient.read<glm::vec4>(), strataGuides.read<glm::vec4>(),
-            strataSlope.read<glm::vec2>()};
+    StrataPass(shaders).run(stage.context, {guides, slope}, {strataGuides, strataSlope});
+    return {strataGuides.read<glm::vec4>(), strataSlope.read<glm::vec2>()};
 }
 
 Image<glm::vec4> runGradientAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
                                    const gpu::EdgeStopping& params) {
-    const FrameBlock block(frame, true);
-    GpuTimer timer(true);
-    FrameContext context{timer};
+    Stage stage(frame);
     const GpuTexture gradient = upload("gradient", frame.gradient);
     const GpuTexture guides = upload("strata guides", frame.strataGuides);
     const GpuTexture slope = upload("strata slope", frame.strataSlope);
     GpuTexture filtered = output<glm::vec4>("filtered gradient", frame.strata);
-    GradientAtrousPass(shaders, kernel).run(context, {gradient, guides, slope}, {filtered}, params);
+    GradientAtrousPass(shaders, kernel)
+        .run(stage.context, {gradient, guides, slope}, {filtered}, params);
     return filtered.read<glm::vec4>();
 }
 
 Image<float> runLambda(ShaderLibrary& shaders, const RandomFrame& frame,
                        const gpu::GradientParams& params) {
-    const FrameBlock block(frame, true);
-    GpuTimer timer(true);
-    FrameContext context{timer};
+    Stage stage(frame);
     const GpuTexture gradient = upload("gradient", frame.gradient);
     GpuTexture lambda = output<float>("lambda", frame.strata);
-    LambdaPass(shaders).run(context, {gradient}, {lambda}, params);
+    LambdaPass(shaders).run(stage.context, {gradient}, {lambda}, params);
     return lambda.read<float>();
 }
 

@@ -32,12 +32,14 @@ Image<glm::vec4> runLuminanceRange(ShaderLibrary& shaders, const RandomFrame& fr
 Image<glm::vec4> runVariance(ShaderLibrary& shaders, const RandomFrame& frame,
                              const gpu::VarianceParams& params);
 
-struct GradientImages {
-    Image<glm::vec4> gradient, guides;
+Image<glm::vec4> runGradient(ShaderLibrary& shaders, const RandomFrame& frame,
+                             const gpu::GradientParams& params);
+
+struct StrataImages {
+    Image<glm::vec4> guides;
     Image<glm::vec2> slope;
 };
-GradientImages runGradient(ShaderLibrary& shaders, const RandomFrame& frame,
-                           const gpu::GradientParams& params);
+StrataImages runStrata(ShaderLibrary& shaders, const RandomFrame& frame);
 
 Image<glm::vec4> runGradientAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
                                    const gpu::EdgeStopping& params);

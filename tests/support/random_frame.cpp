@@ -127,10 +127,12 @@ const glm::vec4 kBackground{0.0f, 0.0f, 1.0f, 0.0f}; // only the depth says so
 RandomFrame::RandomFrame(glm::ivec2 pixels, std::uint32_t seed)
     : size(pixels), strata((pixels + kStratum - 1) / kStratum), visibility(size),
       previousVisibility(size), guides(size), previousGuides(size), slope(size), motion(size),
-      raw(size), previousColor(size), previousMoments(size), lambda(strata), accumulated(size),
-      moments(size), signal(size), samples(strata), gradient(strata), strataGuides(strata),
-      strataSlope(strata) {
+      raw(size), previousRaw(size), previousColor(size), previousMoments(size), lambda(strata),
+      accumulated(size), moments(size), signal(size), samples(strata), gradient(strata),
+      strataGuides(strata), strataSlope(strata) {
     Dice dice(seed);
+    for (glm::vec4& pixel : previousRaw.pixels())
+        pixel = kGarbage;
     const std::vector<Shape> shapes = randomShapes(dice, size);
     const auto depthAt = [](const Shape& s, glm::vec2 p) { return s.depth + glm::dot(s.slope, p); };
 
@@ -209,8 +211,11 @@ RandomFrame::RandomFrame(glm::ivec2 pixels, std::uint32_t seed)
             if (dice.chance(0.7f)) {
                 const float before = raw(p).a * (dice.chance(0.3f) ? 1.0f : dice.uniform(0, 2.0f));
                 const glm::ivec2 landing = p - kStratum * s;
-                samples(s) = {std::bit_cast<std::uint32_t>(before),
-                              std::uint32_t(1 + landing.x + kStratum * landing.y), dice.bits(), 0};
+                // Somewhere else: the source of each stratum is in the one opposite to it.
+                const glm::ivec2 source = size - 1 - p;
+                previousRaw(source).a = before;
+                samples(s) = {dice.bits(), std::uint32_t(1 + landing.x + kStratum * landing.y),
+                              std::uint32_t(source.x) | std::uint32_t(source.y) << 16, 0};
             }
             if (dice.chance(0.7f)) {
                 const float now = dice.uniform(0.0f, 2.0f), before = dice.uniform(0.0f, 2.0f);

@@ -30,7 +30,7 @@ struct RandomFrame {
     Image<glm::vec4> guides, previousGuides;
     Image<glm::vec2> slope;
     Image<glm::vec4> motion;
-    Image<glm::vec4> raw;
+    Image<glm::vec4> raw, previousRaw;
 
     Image<glm::vec4> previousColor;
     Image<glm::vec4> previousMoments; ///< N is one of 0, 1, 2, 3, 4, 10

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "renderer/filters/svgf_filter.h"
 #include "renderer/pipeline/renderer.h"
 #include "renderer/scene/scene.h"
 
 #include <cstring>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -44,6 +46,15 @@ private:
 
 /// Settings with a filter and a signal, all else at its default.
 Settings settingsOf(Filter filter, Signal signal = Signal::Both);
+
+/// An image of a filter of SVGF's family, which it has made.
+inline const GpuTexture& imageOf(const RenderTargets& targets, svgf::Image image,
+                                 std::size_t state = 0, std::size_t signal = 0) {
+    const GpuTexture* const found = targets.filters.at(state).own.at(signal).find(image);
+    if (!found)
+        throw std::logic_error("the filter has not made that image");
+    return *found;
+}
 
 /// The number of pixels whose bits differ.
 template <class Pixel>

@@ -23,7 +23,7 @@ struct Studio {
 
     const RenderTargets& targets() const { return renderer.targets(); }
     Image<glm::uvec4> visibility() const {
-        return targets().visibility.current().read<glm::uvec4>();
+        return targets().surfaces.visibility.read<glm::uvec4>();
     }
 
     Settings settings;

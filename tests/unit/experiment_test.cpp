@@ -205,7 +205,7 @@ TEST_CASE("a mistake in an experiment is named by file and place, with what was 
     CHECK(refusal("seed", "4294967296") ==
           "small.json: seed: expected a whole number >= 0, found 4294967296");
     CHECK(refusal("signal", R"("light")") ==
-          "small.json: signal: expected \"shadows\", \"ao\" or \"both\", found \"light\"");
+          "small.json: signal: expected \"shadows\", \"ao\", \"both\" or \"separate\", found \"light\"");
     CHECK(refusal("variants", "[]") ==
           "small.json: variants: expected a list of variants, found a list of 0");
     CHECK(refusal("variants", R"(["svgf", "svgf"])") ==

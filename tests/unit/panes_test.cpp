@@ -40,9 +40,9 @@ TEST_CASE("whatever filter one begins with, the four panes have four, and that o
         const Panes panes = startPanes(settings);
         CHECK(panes.all[0].settings.filter == filter);
         std::set<Filter> filters;
-        for (const Pane& pane : panes.all) {
-            filters.insert(pane.settings.filter);
-            CHECK(differingFields(pane.settings, settings).empty());
+        for (std::size_t i = 0; i < panes.all.size(); ++i) {
+            filters.insert(panes.all[i].settings.filter);
+            CHECK(differingFields(settingsOf(panes, i), settings).empty());
         }
         CHECK(filters.size() == panes.all.size());
         checkWhole(panes);
@@ -182,20 +182,20 @@ TEST_CASE("lighting and display are set for all panes, a parameter for the activ
         Panes panes = panesIn(PaneLayout::FourUp);
         panes.active = 2;
         const Panes before = panes;
-        const double start = fieldValue(before.all[0].settings, field);
+        const double start = fieldValue(settingsOf(before, 0), field);
         setField(panes, field, start == field.max ? field.min : field.max);
-        CHECK(changedPanes(before, panes) == (isFrameWide(field) ? Shown{0, 1, 2, 3} : Shown{2}));
-        for (const Pane& pane : panes.all)
+        CHECK(changedPanes(before, panes) == (field.isFrameWide() ? Shown{0, 1, 2, 3} : Shown{2}));
+        for (std::size_t i = 0; i < panes.all.size(); ++i)
             for (const Field& other : fields())
                 if (&other != &field)
-                    CHECK(isDefault(pane.settings, other));
+                    CHECK(isDefault(settingsOf(panes, i), other));
         setField(panes, field, field.max + 1e6);
-        CHECK(fieldValue(panes.all[2].settings, field) == doctest::Approx(field.max));
-        frameWide += isFrameWide(field);
+        CHECK(fieldValue(settingsOf(panes, 2), field) == doctest::Approx(field.max));
+        frameWide += field.isFrameWide();
     }
-    CHECK(isFrameWide(fieldByKey("exposure")));
-    CHECK(isFrameWide(fieldByKey("signal")));
-    CHECK_FALSE(isFrameWide(fieldByKey("alpha")));
+    CHECK(fieldByKey("exposure").isFrameWide());
+    CHECK(fieldByKey("signal").isFrameWide());
+    CHECK_FALSE(fieldByKey("alpha").isFrameWide());
     CHECK(frameWide < fields().size() / 2);
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("a preset changes the filter and parameters of its pane, not lighting 
     preset.lighting.signal = int(Signal::Shadows);
     setPane(panes, 1, "Mine", preset);
     CHECK(changedPanes(before, panes) == Shown{1});
-    const Settings& now = panes.all[1].settings;
+    const Settings now = settingsOf(panes, 1);
     CHECK(now.filter == Filter::Percentile);
     CHECK(now.denoiser.temporal.alpha == 0.05f);
     CHECK(now.display.exposure == 2.0f);
@@ -222,7 +222,7 @@ TEST_CASE("a preset changes the filter and parameters of its pane, not lighting 
     copyPane(panes, 1, 3);
     CHECK(titleOf(panes.all[3]) == "Mine");
     CHECK(panes.all[3].settings.filter == Filter::Percentile);
-    CHECK(differingFields(panes.all[3].settings, now).empty());
+    CHECK(differingFields(settingsOf(panes, 3), now).empty());
 }
 
 TEST_CASE("a pane is called after its preset, until it gets another filter") {
@@ -247,15 +247,15 @@ TEST_CASE("the parameters told of a pane are alpha and what is not at its defaul
     setField(panes, fieldByKey("exposure"), 2.0); // of the frame, not of the filter
     CHECK(parametersOf(pane) == "\xce\xb1 0.1");
     for (const Field& field : fields()) {
-        if (isFrameWide(field) || field.key == "alpha")
+        if (field.isFrameWide() || field.key == "alpha")
             continue;
         CAPTURE(field.key);
-        const bool isHigh = fieldValue(pane.settings, field) == field.max;
+        const bool isHigh = fieldValue(settingsOf(panes, 0), field) == field.max;
         setField(panes, field, isHigh ? field.min : field.max);
-        const std::string text =
-            std::string(field.key) + " " + valueText(field, fieldValue(pane.settings, field));
+        const std::string text = std::string(field.key) + " " +
+                                 valueText(field, fieldValue(settingsOf(panes, 0), field));
         CHECK(parametersOf(pane) == "\xce\xb1 0.1, " + text);
-        resetField(pane.settings, field);
+        setField(panes, field, fieldValue(Settings{}, field));
     }
     setFilter(panes, 0, Filter::None);
     CHECK(parametersOf(pane).empty());

@@ -50,9 +50,9 @@ struct Change {
 
 Reference exampleReference(glm::ivec2 size) {
     Reference reference;
-    reference.signal = Image<glm::vec4>(size);
+    reference.signals = {Image<glm::vec4>(size)};
     float value = 0.1f;
-    for (glm::vec4& pixel : reference.signal.pixels())
+    for (glm::vec4& pixel : reference.signals[0].pixels())
         for (int channel = 0; channel < 4; ++channel)
             pixel[channel] = value = value * 1.7f > 90.0f ? value * 0.0123f : value * 1.7f;
     reference.residual = 0.1 / 3.0;
@@ -204,7 +204,7 @@ TEST_CASE("what a cache gives back is what it was given, to the last bit") {
     cache.store(key, stored, {{"scene", "an example"}});
     const auto found = ReferenceCache(cache.folder()).find(key);
     REQUIRE(found);
-    CHECK(equalBits(found->signal, stored.signal));
+    CHECK(equalBits(found->signals.at(0), stored.signals.at(0)));
     CHECK(found->residual == stored.residual);
     CHECK(found->rays == stored.rays);
     CHECK(found->milliseconds == stored.milliseconds);
@@ -235,8 +235,8 @@ TEST_CASE("no damaged entry is taken for a reference") {
         missed += !found;
         // A byte that means nothing may differ; what is given back may not.
         if (found)
-            CHECK((equalBits(found->signal, stored.signal) && found->rays == stored.rays &&
-                   found->residual == stored.residual &&
+            CHECK((equalBits(found->signals.at(0), stored.signals.at(0)) &&
+                   found->rays == stored.rays && found->residual == stored.residual &&
                    found->milliseconds == stored.milliseconds && found->samples == stored.samples));
     };
     for (std::size_t part = 0; part < 8; ++part) {

@@ -267,11 +267,11 @@ TEST_CASE("a still scene has no gradient and no lambda, after any number of iter
             if (glm::uvec4& sample = frame.samples({x, y}); sample.y != 0) {
                 const int landing = int(sample.y) - 1;
                 const glm::ivec2 p = 3 * glm::ivec2(x, y) + glm::ivec2(landing % 3, landing / 3);
-                sample.x = std::bit_cast<std::uint32_t>(frame.raw(p).a);
+                sample.z = std::uint32_t(p.x) | std::uint32_t(p.y) << 16;
             }
-    const auto strata = reference::gradient({frame.raw, frame.samples, frame.guides, frame.slope},
-                                            gradientParams(1e-4f, -1.0f));
-    Image<glm::vec4> gradient = toFloat(strata.gradient);
+    const auto strata = reference::strataGuides(frame.guides, frame.slope);
+    Image<glm::vec4> gradient = toFloat(reference::gradient(
+        {frame.raw, frame.raw, frame.samples, frame.guides}, gradientParams(1e-4f, -1.0f)));
     for (const int step : {1, 2, 4, 8, 16}) {
         gpu::EdgeStopping params = kSvgf;
         params.step = step;

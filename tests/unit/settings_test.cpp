@@ -1,14 +1,38 @@
 #include "renderer/base/error.h"
-#include "renderer/pipeline/denoise_plan.h"
+#include "renderer/filters/svgf_plan.h"
+#include "renderer/pipeline/settings.h"
 
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
 
+#include <cstring>
 #include <set>
 #include <string>
+#include <tuple>
 
 using namespace afterglow;
+
+namespace {
+
+template <class Block>
+bool sameBits(const Block& a, const Block& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0; // blocks have no padding of their own
+}
+
+bool isSame(const SvgfPlan& a, const SvgfPlan& b) {
+    const auto flags = [](const SvgfPlan& p) {
+        return std::tuple(p.accumulate, p.carrySamples, p.useLambda, p.usePercentiles,
+                          p.gradientIterations, p.gradientKernel, p.gradientStridesLinear,
+                          p.atrousIterations, p.kernel, p.feedbackIteration);
+    };
+    return flags(a) == flags(b) && sameBits(a.temporal, b.temporal) &&
+           sameBits(a.percentiles, b.percentiles) && sameBits(a.gradient, b.gradient) &&
+           sameBits(a.gradientEdges, b.gradientEdges) && sameBits(a.variance, b.variance) &&
+           sameBits(a.edges, b.edges);
+}
+
+} // namespace
 
 TEST_CASE("the field table names every member of the settings once") {
     Settings settings;
@@ -20,7 +44,7 @@ TEST_CASE("the field table names every member of the settings once") {
     };
     for (const Field& field : fields()) {
         CAPTURE(field.key);
-        std::visit([&](auto* member) { cover(member); }, field.ref(settings));
+        std::visit([&](auto* member) { cover(member); }, field.in(settings));
     }
     // Not for a slider: chosen by name, set by the plan or by the pass, or padding.
     cover(&settings.filter);
@@ -46,7 +70,7 @@ TEST_CASE("every field says what it is, and its default is in its range") {
         CHECK_FALSE(field.source.empty());
         Settings settings;
         const double value =
-            std::visit([](auto* member) { return double(*member); }, field.ref(settings));
+            std::visit([](auto* member) { return double(*member); }, field.in(settings));
         CHECK(value >= field.min);
         CHECK(value <= field.max);
         if (!field.choices.empty())
@@ -95,43 +119,56 @@ TEST_CASE("a wrong setting is refused by name, and nothing of it is applied") {
 }
 
 TEST_CASE("filters differ in the rows of one plan") {
-    const DenoiserSettings settings;
-    const DenoisePlan none = makePlan(Filter::None, settings),
-                      fixed = makePlan(Filter::Fixed, settings);
-    const DenoisePlan svgf = makePlan(Filter::Svgf, settings),
-                      asvgf = makePlan(Filter::Asvgf, settings);
-    CHECK(none == DenoisePlan{});
-    CHECK(fixed == DenoisePlan{.accumulate = true, .historyLaw = gpu::kHistoryPower});
-    CHECK(svgf == DenoisePlan{.accumulate = true,
-                              .historyLaw = gpu::kHistoryPower,
-                              .atrousIterations = 5,
-                              .feedbackIteration = 1});
-    DenoisePlan adaptive = svgf;
-    adaptive.carrySamples = adaptive.useLambda = true;
-    adaptive.gradientIterations = 5;
-    adaptive.gradientKernel = Kernel::Box3x3;
-    adaptive.gradientLuminanceStop = true;
-    CHECK(asvgf == adaptive);
+    const SvgfPlan svgf = makePlan({Filter::Svgf, {}});
+    CHECK(svgf.accumulate);
+    CHECK(svgf.temporal.historyLaw == gpu::kHistoryPower);
+    CHECK(svgf.temporal.clampRadius == -1);
+    CHECK(svgf.temporal.lambdaSource == gpu::kLambdaFromNothing);
+    CHECK(svgf.atrousIterations == 5);
+    CHECK(svgf.feedbackIteration == 1);
+    CHECK_FALSE((svgf.carrySamples || svgf.useLambda || svgf.usePercentiles));
 
-    DenoisePlan clamp = svgf, percentile = svgf, confidence = asvgf;
-    clamp.clampHistory = true;
-    CHECK(makePlan(Filter::Clamp, settings) == clamp);
+    SvgfPlan fixed = svgf, none = svgf, asvgf = svgf, clamp = svgf, percentile = svgf;
+    fixed.atrousIterations = fixed.feedbackIteration = 0;
+    CHECK(isSame(makePlan({Filter::Fixed, {}}), fixed));
+    none = fixed;
+    none.accumulate = false;
+    CHECK(isSame(makePlan({Filter::None, {}}), none));
+    asvgf.carrySamples = asvgf.useLambda = true;
+    asvgf.temporal.lambdaSource = gpu::kLambdaFromGradient;
+    CHECK(isSame(makePlan({Filter::Asvgf, {}}), asvgf));
+    clamp.temporal.clampRadius = DenoiserSettings{}.temporal.clampRadius;
+    CHECK(isSame(makePlan({Filter::Clamp, {}}), clamp));
     percentile.usePercentiles = true;
-    CHECK(makePlan(Filter::Percentile, settings) == percentile);
-    confidence.cutHistory = confidence.gradientAbsolute = true;
+    percentile.temporal.lambdaSource = gpu::kLambdaFromRange;
+    CHECK(isSame(makePlan({Filter::Percentile, {}}), percentile));
+
+    SvgfPlan confidence = asvgf;
+    confidence.temporal.lambdaUse = gpu::kLambdaCuts;
+    confidence.temporal.historyLaw = gpu::kHistoryEffective;
+    confidence.gradient.magnitude = gpu::kGradientAbsolute;
     confidence.gradientStridesLinear = true;
-    confidence.gradientLuminanceStop = false;
+    confidence.gradientEdges.sigmaLuminance = 0.0f;
     confidence.gradientKernel = Kernel::B3Spline5x5;
-    confidence.historyLaw = gpu::kHistoryEffective;
-    CHECK(makePlan(Filter::Confidence, settings) == confidence);
+    CHECK(isSame(makePlan({Filter::Confidence, {}}), confidence));
+}
+
+TEST_CASE("what cannot cut a history blends") {
+    DenoiserSettings settings;
+    settings.temporal.lambdaUse = gpu::kLambdaCuts;
+    CHECK(makePlan({Filter::Asvgf, settings}).cutsHistory());
+    CHECK(makePlan({Filter::Percentile, settings}).cutsHistory());
+    CHECK_FALSE(makePlan({Filter::Svgf, settings}).cutsHistory());
 }
 
 TEST_CASE("every filter has a name of its own, a sentence, and a place in the list") {
-    std::set<std::string_view> names;
+    std::set<std::string_view> names, titles;
     for (const Filter filter : allFilters()) {
         CHECK(names.insert(nameOf(filter)).second);
         CHECK(filterFromName(nameOf(filter)) == filter);
         CHECK_FALSE(describe(filter).empty());
+        CHECK(titles.insert(titleOf(filter)).second);
+        CHECK(infoOf(filter).filter == filter);
         CHECK(allFilters()[std::size_t(filter)] == filter);
     }
 }
@@ -144,12 +181,12 @@ TEST_CASE("what confidence does differently can be set for A-SVGF, piece by piec
     settings.gradientStrides = gpu::kStridesLinear;
     settings.gradientLuminanceStop = 0;
     settings.gradientKernel = int(Kernel::B3Spline5x5);
-    CHECK(makePlan(Filter::Asvgf, settings) == makePlan(Filter::Confidence, DenoiserSettings{}));
+    CHECK(isSame(makePlan({Filter::Asvgf, settings}), makePlan({Filter::Confidence, {}})));
 }
 
 TEST_CASE("what is fed back is never later than the last iteration") {
     DenoiserSettings settings;
     settings.feedbackIteration = 4;
     settings.atrousIterations = 2;
-    CHECK(makePlan(Filter::Svgf, settings).feedbackIteration == 2);
+    CHECK(makePlan({Filter::Svgf, settings}).feedbackIteration == 2);
 }

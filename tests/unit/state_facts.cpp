@@ -62,7 +62,7 @@ void addPanes(Facts& facts, const Panes& panes) {
         facts[name + " filter"] = nameOf(pane.settings.filter);
         for (const Field& field : fields())
             facts[name + " " + std::string(field.key)] =
-                valueText(field, fieldValue(pane.settings, field));
+                valueText(field, fieldValue(settingsOf(panes, i), field));
     }
     facts["layout"] = nameOf(panes.layout);
     facts["active"] = text(panes.active);

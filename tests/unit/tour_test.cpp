@@ -129,8 +129,8 @@ TEST_CASE("the filters that a stop compares differ") {
         const auto shown = shownPanes(panes);
         for (const std::size_t a : shown)
             for (const std::size_t b : shown)
-                CHECK((a == b ||
-                       !differencesOf(panes.all[a].settings, panes.all[b].settings).empty()));
+                CHECK(
+                    (a == b || !differencesOf(settingsOf(panes, a), settingsOf(panes, b)).empty()));
     }
 }
 
@@ -178,11 +178,10 @@ TEST_CASE("entering a stop undoes what a person or the stop before has changed, 
             state.camera.position.x += 0.1f;
             for (ImageDisplay& display : state.displays)
                 display.high *= 2.0f;
-            for (Pane& pane : state.panes.all) {
+            for (Pane& pane : state.panes.all)
                 pane.settings.denoiser.temporal.alpha = 0.9f;
-                pane.settings.lighting.signal = int(Signal::AmbientOcclusion);
-                pane.settings.display.exposure = 1.5f;
-            }
+            state.panes.frame.lighting.signal = int(Signal::AmbientOcclusion);
+            state.panes.frame.display.exposure = 1.5f;
             setProbe(state, 3, {{5, 5}, {2, 2}}, {320, 180});
             toggleFreeze(state);
             state.showPresets = state.showHelp = true;
@@ -201,9 +200,9 @@ TEST_CASE("entering a stop undoes what a person or the stop before has changed, 
             CHECK(state.panes.pair == fresh.panes.pair);
             CHECK(state.panes.active == fresh.panes.active);
             CHECK(changedPanes(state.panes, fresh.panes).empty() == false); // the exposure stays
-            CHECK(state.settings().display.exposure == 1.5f);
+            CHECK(state.panes.frame.display.exposure == 1.5f);
             for (std::size_t i = 0; i < kFilterStates; ++i) {
-                const Settings &a = state.panes.all[i].settings, &b = fresh.panes.all[i].settings;
+                const Settings a = settingsOf(state.panes, i), b = settingsOf(fresh.panes, i);
                 CHECK(differencesOf(a, b).empty());
                 CHECK(a.lighting.signal == b.lighting.signal);
                 CHECK(state.panes.all[i].title == fresh.panes.all[i].title);
@@ -327,7 +326,7 @@ TEST_CASE("every member of a stop is read, and the rest has its documented value
         "probe": [0, 0, 1, 1], "curve": "history", "open": ["strip"]}]})",
                                               "small.json")
                                         .at(0));
-    CHECK(state.settings().lighting.signal == int(Signal::AmbientOcclusion));
+    CHECK(state.panes.frame.lighting.signal == int(Signal::AmbientOcclusion));
     CHECK(state.panes.layout == PaneLayout::Difference);
     CHECK(state.panes.pair == std::array<std::size_t, 2>{1, 0});
     CHECK(state.panes.active == 1);
@@ -368,7 +367,7 @@ TEST_CASE("a tour that is wrong is refused with the file and the place") {
     refused("titel", "\"x\"", "", "unknown key \"titel\"");
     refused("text", "\"\"", ".text", "found \"\"");
     refused("scene", "7", ".scene", "expected a text, found 7");
-    refused("signal", "\"none\"", ".signal", "\"shadows\", \"ao\" or \"both\"");
+    refused("signal", "\"none\"", ".signal", "\"shadows\", \"ao\", \"both\" or \"separate\"");
     refused("layout", "\"six\"", ".layout", "found \"six\"");
     refused("panes", "[]", ".panes", "a list of 1 to 4 filters");
     refused("panes", R"(["svgf", "asvfg"])", ".panes[1]", "did you mean 'asvgf'?");

@@ -61,7 +61,7 @@ TEST_CASE(
         chooseFilter(state, filter);
         std::size_t made = 0;
         for (const AovInfo& aov : aovs())
-            made += isMadeBy(aov, filter, state.settings().denoiser);
+            made += isMadeBy(aov, FilterSettings{filter, state.settings().denoiser});
         std::set<std::size_t> seen;
         for (std::size_t i = 0; i < made; ++i) {
             cycleImage(state, 1);
@@ -98,9 +98,9 @@ TEST_CASE("every field can be set, keeps to its range, and goes back to its defa
         CAPTURE(field.key);
         CHECK(&fieldByKey(field.key) == &field);
         CHECK(isDefault(settings, field));
-        setFieldValue(settings, field, field.max + 1e6);
+        setFieldValue(settings, settings, field, field.max + 1e6);
         CHECK(fieldValue(settings, field) == doctest::Approx(field.max));
-        setFieldValue(settings, field, field.min - 1e6);
+        setFieldValue(settings, settings, field, field.min - 1e6);
         CHECK(fieldValue(settings, field) == doctest::Approx(field.min));
         CHECK_FALSE((isDefault(settings, field) && field.min != fieldValue(Settings{}, field)));
         resetField(settings, field);
@@ -120,15 +120,14 @@ TEST_CASE("a value is told with its unit, or by the name of the choice") {
 TEST_CASE("exposure goes in half stops, for all panes, to the ends of its range") {
     ViewState state = cornellState();
     press(state, ']');
-    for (const Pane& pane : state.panes.all)
-        CHECK(pane.settings.display.exposure == 0.5f);
+    CHECK(state.panes.frame.display.exposure == 0.5f);
     const Field& field = fieldByKey("exposure");
     for (int i = 0; i < 100; ++i)
         press(state, ']');
-    CHECK(double(state.settings().display.exposure) == doctest::Approx(field.max));
+    CHECK(double(state.panes.frame.display.exposure) == doctest::Approx(field.max));
     for (int i = 0; i < 100; ++i)
         press(state, '[');
-    CHECK(double(state.settings().display.exposure) == doctest::Approx(field.min));
+    CHECK(double(state.panes.frame.display.exposure) == doctest::Approx(field.min));
 }
 
 TEST_CASE("all quantities of the curves come around") {

@@ -1,0 +1,105 @@
+// What the filters of SVGF's family declare: their images, and those that can be looked at.
+
+#include "renderer/filters/svgf_filter.h"
+
+#include <array>
+
+namespace afterglow {
+namespace {
+
+using namespace svgf;
+
+// In the order of svgf::Image.
+constexpr std::array kImages{
+    ImageDecl{"color", PixelFormat::RGBA32F, ImageGrid::Pixels, true},
+    ImageDecl{"moments", PixelFormat::RGBA32F, ImageGrid::Pixels, true},
+    ImageDecl{"gradient samples", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"gradient 0", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"gradient 1", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"lambda", PixelFormat::R32F, ImageGrid::Strata},
+    ImageDecl{"luminance range", PixelFormat::RGBA32F, ImageGrid::Tiles},
+    ImageDecl{"accumulated", PixelFormat::RGBA32F},
+    ImageDecl{"control", PixelFormat::RGBA32F},
+    ImageDecl{"filtered 0", PixelFormat::RGBA32F},
+    ImageDecl{"filtered 1", PixelFormat::RGBA32F},
+};
+static_assert(kImages.size() == kFiltered1 + 1);
+
+using S = const FilterSettings&;
+
+bool always(S) {
+    return true;
+}
+bool whereAccumulated(S s) {
+    return makePlan(s).accumulate;
+}
+bool whereFiltered(S s) {
+    return makePlan(s).atrousIterations > 0;
+}
+bool whereAdaptive(S s) {
+    return makePlan(s).useLambda;
+}
+bool whereLambda(S s) {
+    return makePlan(s).useLambda || makePlan(s).usePercentiles;
+}
+bool whereReconstructed(S s) {
+    return makePlan(s).useLambda && makePlan(s).gradientIterations > 0;
+}
+
+template <std::size_t place>
+std::size_t at(S) {
+    return place;
+}
+std::size_t blend(S s) {
+    return blendOf(makePlan(s));
+}
+
+constexpr bool kPerStratum = true;
+
+// clang-format off
+constexpr std::array kAovs = std::to_array<FilterAov>({
+    {{"filtered", "the signal after the filter, without albedo, radiance", "RGB"}, always, at<kFilterResult>},
+    {{"variance", "variance of the filtered signal's luminance, as estimated, radiance squared", "Y"},
+     whereFiltered, at<kFilterResult>, 3},
+    {{"accumulated", "the signal after temporal and before spatial filtering, radiance", "RGB"},
+     whereAccumulated, blend},
+    {{"history_luminance", "luminance of the history as fetched, 0 without one, radiance", "Y"},
+     whereAccumulated, blend, 3},
+    {{"moments", "running means of the raw luminance and of its square", "XY"}, whereAccumulated, at<kMoments>},
+    {{"history", "length of the history as the history law counts it, frames", "Y"},
+     whereAccumulated, at<kMoments>, 2},
+    {{"alpha", "weight of the newest frame in the blend, [0, 1]", "Y"}, whereAccumulated, at<kControl>, 1},
+    {{"reason", "why there is no history: 0 there is, 1 first frame, 2 off screen, 3 another "
+      "instance, 4 depth, 5 normal", "Y"}, whereAccumulated, at<kControl>, 3},
+    {{"lambda", "relative temporal change as fetched at the pixel, [0, 1]", "Y"}, whereLambda, at<kControl>},
+    {{"lambda_strata", "relative temporal change per stratum of 3x3 pixels, [0, 1]", "Y", kPerStratum},
+     whereAdaptive, at<kLambda>},
+    {{"gradient", "reconstructed change of luminance (delta), or its size, per stratum, radiance", "Y",
+      kPerStratum}, whereReconstructed, at<kGradient0>},
+    {{"gradient_max", "reconstructed larger luminance of the two frames (Delta) per stratum, radiance",
+      "Y", kPerStratum}, whereReconstructed, at<kGradient0>, 1},
+    {{"gradient_sample", "change of luminance at each stratum's sample, or its size, as measured, radiance",
+      "Y", kPerStratum}, whereAdaptive, at<kGradientSamples>},
+    {{"gradient_sample_max", "larger luminance of the two frames at each stratum's sample, radiance",
+      "Y", kPerStratum}, whereAdaptive, at<kGradientSamples>, 1},
+});
+// clang-format on
+
+} // namespace
+
+const FilterFamily& svgfFamily() {
+    static const FilterFamily family{
+        .images = kImages,
+        .aovs = kAovs,
+        .needs =
+            [](const FilterSettings& settings) {
+                const SvgfPlan plan = makePlan(settings);
+                return FilterNeeds{.samples = plan.carrySamples, .lambda = plan.useLambda};
+            },
+        .make = [](ShaderLibrary& shaders) -> std::unique_ptr<SignalFilter> {
+            return std::make_unique<SvgfFilter>(shaders);
+        }};
+    return family;
+}
+
+} // namespace afterglow

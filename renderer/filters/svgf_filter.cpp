@@ -1,0 +1,91 @@
+#include "renderer/filters/svgf_filter.h"
+
+namespace afterglow {
+
+using namespace svgf;
+
+svgf::Image svgf::blendOf(const SvgfPlan& plan) {
+    return plan.feedbackIteration == 0 ? kColor : kAccumulated;
+}
+
+SvgfFilter::SvgfFilter(ShaderLibrary& shaders)
+    : gradient_(shaders), gradientSpline_(shaders, Kernel::B3Spline5x5),
+      gradientBox_(shaders, Kernel::Box3x3), lambda_(shaders), luminanceRange_(shaders),
+      temporal_(shaders), variance_(shaders), atrousSpline_(shaders, Kernel::B3Spline5x5),
+      atrousBox_(shaders, Kernel::Box3x3) {}
+
+const GpuTexture& SvgfFilter::run(FrameContext& frame, const FilterInput& in,
+                                  const FilterSettings& settings, FilterImages own) {
+    return run(frame, in, makePlan(settings), own);
+}
+
+const GpuTexture& SvgfFilter::run(FrameContext& frame, const FilterInput& in, const SvgfPlan& plan,
+                                  FilterImages own) {
+    const Run run{frame, in, plan, own};
+    if (plan.useLambda)
+        reconstructGradient(run);
+    if (plan.usePercentiles)
+        luminanceRange_.run(frame, {in.newest, in.surfaces.guides}, {own[kLuminanceRange]},
+                            plan.percentiles);
+    if (!plan.accumulate) {
+        own[kMoments].clear(); // history lengths of 0: whoever comes next starts anew
+        return in.newest;
+    }
+    accumulate(run);
+    return filter(run);
+}
+
+void SvgfFilter::reconstructGradient(const Run& run) {
+    const auto& [frame, in, plan, own] = run;
+    const SignalTargets& signal = in.signal;
+    gradient_.run(frame,
+                  {signal.raw.current(), signal.raw.previous(), in.samples, in.surfaces.guides,
+                   in.samplesBeside ? &signal.sampleRaw : nullptr},
+                  {own[kGradientSamples]}, plan.gradient);
+    GradientAtrousPass& atrous =
+        plan.gradientKernel == Kernel::B3Spline5x5 ? gradientSpline_ : gradientBox_;
+    gpu::EdgeStopping edges = plan.gradientEdges;
+    const GpuTexture* newest = &own[kGradientSamples];
+    for (int k = 0; k < plan.gradientIterations; ++k) {
+        edges.step = plan.gradientStep(k);
+        // The last is kGradient0.
+        GpuTexture& out = own[(plan.gradientIterations - 1 - k) % 2 == 0 ? kGradient0 : kGradient1];
+        atrous.run(frame, {*newest, in.strataGuides, in.strataSlope}, {out}, edges);
+        newest = &out;
+    }
+    lambda_.run(frame, {*newest}, {own[kLambda]}, plan.gradient);
+}
+
+void SvgfFilter::accumulate(const Run& run) {
+    const auto& [frame, in, plan, own] = run;
+    temporal_.run(frame,
+                  {in.newest, in.surfaces.visibility, in.previousVisibility, in.surfaces.guides,
+                   in.previousGuides, in.surfaces.slope, in.surfaces.motion, own.previous(kColor),
+                   own.previous(kMoments), own[kLambda], own[kLuminanceRange]},
+                  {own[blendOf(plan)], own[kMoments], own[kControl]}, plan.temporal);
+}
+
+const GpuTexture& SvgfFilter::filter(const Run& run) {
+    const auto& [frame, in, plan, own] = run;
+    const GpuTexture& accumulated = own[blendOf(plan)];
+    if (plan.atrousIterations == 0)
+        return accumulated;
+    variance_.run(frame, {accumulated, own[kMoments], in.surfaces.guides, in.surfaces.slope},
+                  {own[kFiltered0]}, plan.variance);
+    AtrousPass& atrous = plan.kernel == Kernel::B3Spline5x5 ? atrousSpline_ : atrousBox_;
+    gpu::EdgeStopping edges = plan.edges;
+    const GpuTexture* newest = &own[kFiltered0];
+    bool first = false; // which of the two that take turns is next
+    for (int k = 1; k <= plan.atrousIterations; ++k) {
+        edges.step = 1 << (k - 1);
+        const bool isHistory = k == plan.feedbackIteration;
+        GpuTexture& out = own[isHistory ? kColor : first ? kFiltered0 : kFiltered1];
+        atrous.run(frame, {*newest, in.surfaces.guides, in.surfaces.slope}, {out}, edges);
+        if (!isHistory)
+            first = !first;
+        newest = &out;
+    }
+    return *newest;
+}
+
+} // namespace afterglow

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "renderer/gl/texture.h"
+
+#include <vector>
+
+namespace afterglow {
+
+/// What is seen at each texel: at the pixels of a picture, or at samples beside one. Contents are
+/// specified in docs/pipeline.md.
+struct Surfaces {
+    Surfaces() = default;
+    /// All zero: background. `prefix` begins the label of each image.
+    explicit Surfaces(glm::ivec2 size, std::string_view prefix = {});
+
+    glm::ivec2 size() const { return visibility.size(); }
+    bool empty() const { return size().x == 0; }
+    std::vector<GpuTexture*> all();
+    std::vector<const GpuTexture*> all() const;
+
+    GpuTexture visibility; ///< what the others are made from
+    GpuTexture surface, guides, slope, motion, albedo, emission;
+};
+
+} // namespace afterglow
