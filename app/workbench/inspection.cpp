@@ -182,10 +182,9 @@ private:
 
 } // namespace
 
-Inspection inspect(const Renderer& renderer, std::size_t state, const FrameSettings& settings,
-                   glm::ivec2 pixel, std::size_t signal) {
-    const PixelFacts facts = pixelFacts(renderer, state, settings, pixel, signal);
-    const Lines lines(facts, renderer.scene());
+Inspection inspectionOf(const PixelFacts& facts, const Scene& scene, std::size_t state,
+                        std::size_t signal) {
+    const Lines lines(facts, scene);
     Inspection inspection{.pixel = facts.pixel,
                           .stratum = facts.stratum,
                           .state = state,

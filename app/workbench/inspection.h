@@ -1,5 +1,6 @@
 #pragma once
 
+#include "app/workbench/pixel_facts.h"
 #include "renderer/pipeline/renderer.h"
 
 #include <string>
@@ -30,10 +31,9 @@ struct Inspection {
     std::vector<std::string> story; ///< sentences: where the sample came from, why there is none
 };
 
-/// Reads single pixels back, which waits for the GPU. `settings` are those of the last frame. The
-/// pixel is inside the picture and the state ran in the last frame; else std::logic_error.
-Inspection inspect(const Renderer& renderer, std::size_t state, const FrameSettings& settings,
-                   glm::ivec2 pixel, std::size_t signal = 0);
+/// Of one signal in the filter with that state.
+Inspection inspectionOf(const PixelFacts& facts, const Scene& scene, std::size_t state,
+                        std::size_t signal = 0);
 
 /// "another instance was seen there": gpu::kHistory... codes.
 std::string_view historyReason(int code);

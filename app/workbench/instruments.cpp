@@ -1,6 +1,9 @@
 #include "app/workbench/instruments.h"
 
+#include "shared/counters.h"
+
 #include <limits>
+#include <utility>
 
 namespace afterglow {
 namespace {
@@ -31,45 +34,96 @@ const GpuTexture& controlOf(const Renderer& renderer, std::size_t pane, std::siz
 
 } // namespace
 
-ProbeFrame Instruments::read(Renderer& renderer, const ViewState& state, std::uint32_t frame,
-                             const FrameMoment& moment) {
-    ProbeFrame result{.frame = frame, .marks = {}, .panes = {}, .probes = {}, .samples = {}};
+void Instruments::measure(Renderer& renderer, const ViewState& state, std::uint32_t frame,
+                          const FrameMoment& moment) {
+    frame_ = {.frame = frame, .marks = {}, .panes = {}, .probes = {}, .samples = {}};
     for (const std::string& mark : moment.marks)
-        result.marks.push_back({.text = mark, .step = moment.step, .pane = {}});
-    const auto shown = shownPanes(state.panes);
-    for (const std::size_t pane : shown)
-        result.panes[pane] = titleOf(state.panes.all[pane]);
-    FrameContext context{renderer.timer()};
-    const RenderTargets& t = renderer.targets();
-    const std::size_t signal = shownSignal(state);
-    for (std::size_t i = 0; i < kProbes; ++i) {
-        if (!state.probes[i])
-            continue;
-        const Probe probe =
-            rescaled(state.probes[i]->probe, state.probes[i]->image, renderer.size());
-        result.probes[i] = probe;
-        for (const std::size_t pane : shown) {
-            probe_.run(context,
-                       {renderer.filteredSignal(pane, signal), t.signals[signal].raw.current(),
-                        renderer.demodulation(signal), t.surfaces.guides,
-                        controlOf(renderer, pane, signal)},
-                       probe.min, probe.size);
-            result.samples[i][pane] = sampleOf(probe_.read(), *renderer.ran(pane)->svgf);
-        }
+        frame_->marks.push_back({.text = mark, .step = moment.step, .pane = {}});
+    for (std::size_t i = 0; i < kProbes; ++i)
+        if (const auto& placed = state.probes[i])
+            frame_->probes[i] = rescaled(placed->probe, placed->image, renderer.size());
+    for (const std::size_t pane : shownPanes(state.panes)) {
+        frame_->panes[pane] = titleOf(state.panes.all[pane]);
+        measureProbes(renderer, state, pane);
+        if (state.showInspector)
+            countReasons(renderer, state, pane);
     }
-    return result;
 }
 
-ReasonCounts Instruments::countReasons(Renderer& renderer, const ViewState& state,
-                                       std::size_t pane) {
+void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std::size_t pane) {
     const RenderTargets& t = renderer.targets();
+    const SvgfPlan& plan = *renderer.ran(pane)->svgf;
+    const std::size_t signal = shownSignal(state);
     FrameContext context{renderer.timer()};
-    reasons_.run(context, {controlOf(renderer, pane, shownSignal(state)), t.surfaces.guides,
+    for (std::size_t i = 0; i < kProbes; ++i) {
+        if (!frame_->probes[i])
+            continue;
+        probe_.run(context,
+                   {renderer.filteredSignal(pane, signal), t.signals[signal].raw.current(),
+                    renderer.demodulation(signal), t.surfaces.guides,
+                    controlOf(renderer, pane, signal)},
+                   frame_->probes[i]->min, frame_->probes[i]->size);
+        pendingProbes_.push_back({i, pane, plan, probe_.copyTo(readback_)});
+    }
+}
+
+void Instruments::countReasons(Renderer& renderer, const ViewState& state, std::size_t pane) {
+    const RenderTargets& t = renderer.targets();
+    const SvgfPlan& plan = *renderer.ran(pane)->svgf;
+    const std::size_t signal = shownSignal(state);
+    FrameContext context{renderer.timer()};
+    reasons_.run(context, {controlOf(renderer, pane, signal), t.surfaces.guides,
                            carriesSamples(state.panes) ? &t.samples : nullptr});
-    ReasonCounts counts = reasons_.read();
-    if (!renderer.ran(pane)->svgf->accumulate)
-        counts.history = {};
-    return counts;
+    pendingReasons_.push_back({pane, plan, reasons_.copyTo(readback_)});
+}
+
+void Instruments::count(const Renderer& renderer) {
+    const GpuTexture& counters = renderer.targets().counters;
+    pendingCounters_ = readback_.add<std::uint32_t>(counters, {0, 0}, counters.size());
+}
+
+void Instruments::inspect(Renderer& renderer, std::size_t pane, const FrameSettings& settings,
+                          glm::ivec2 pixel, std::size_t signal) {
+    pixel_.ask(renderer, pane, settings, pixel, signal, readback_);
+    inspected_ = {pane, signal};
+}
+
+void Instruments::submit() {
+    readback_.submit();
+}
+
+Instruments::Measured Instruments::collect(const Scene& scene) {
+    readback_.finish();
+    Measured measured{.frame = std::move(frame_), .reasons = {}, .stats = {}, .inspection = {}};
+    for (const PendingProbe& pending : pendingProbes_)
+        measured.frame->samples[pending.probe][pending.pane] =
+            sampleOf(ProbePass::readingOf(readback_, pending.sums), pending.plan);
+    for (const PendingReasons& pending : pendingReasons_) {
+        ReasonCounts counts = ReasonPass::countsOf(readback_, pending.counts);
+        if (!pending.plan.accumulate)
+            counts.history = {};
+        measured.reasons[pending.pane] = counts;
+    }
+    if (pendingCounters_) {
+        const auto counters = readback_.pixels(*pendingCounters_);
+        measured.stats = {.rays = counters[gpu::kCounterRays],
+                          .gradientSamples = counters[gpu::kCounterGradientSamples],
+                          .invalidValues = counters[gpu::kCounterInvalid]};
+    }
+    if (inspected_)
+        measured.inspection =
+            inspectionOf(pixel_.answer(readback_), scene, inspected_->pane, inspected_->signal);
+    drop();
+    return measured;
+}
+
+void Instruments::drop() {
+    readback_.clear();
+    frame_.reset();
+    pendingProbes_.clear();
+    pendingReasons_.clear();
+    pendingCounters_.reset();
+    inspected_.reset();
 }
 
 } // namespace afterglow

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "renderer/gl/readback.h"
+#include "renderer/passes/history_taps_pass.h"
 #include "renderer/pipeline/renderer.h"
 
 #include <array>
@@ -92,8 +94,40 @@ struct PixelFacts {
     bool isSample() const { return sample && sample->landing == pixel; }
 };
 
-/// Single pixels are read back; std::logic_error as inspect().
-PixelFacts pixelFacts(const Renderer& renderer, std::size_t state, const FrameSettings& settings,
-                      glm::ivec2 pixel, std::size_t signal = 0);
+/// Asks what a frame holds at one pixel, and is answered once a readback has finished.
+class PixelQuery {
+public:
+    explicit PixelQuery(ShaderLibrary& shaders) : past_(shaders) {}
+
+    /// Of the last frame, whose settings are given. The pixel is inside the picture and the state
+    /// ran in that frame; else std::logic_error.
+    void ask(Renderer& renderer, std::size_t state, const FrameSettings& settings, glm::ivec2 pixel,
+             std::size_t signal, PixelReadback& readback);
+    PixelFacts answer(const PixelReadback& readback) const; ///< what was asked last
+
+    /// Where what is asked for will be. What the filter does not make is left out.
+    struct Regions {
+        template <class Pixel>
+        using Region = PixelReadback::Region<Pixel>;
+
+        Region<glm::uvec4> visibility, surface;
+        Region<glm::vec4> guides, motion, albedo, emission, filtered, composed;
+        Region<glm::vec2> slope;
+        Region<glm::vec4> raw; ///< of the stratum's pixels
+        Region<std::uint32_t> seed;
+        Region<glm::uvec4> sample;
+        Region<glm::vec4> extraRaw, gradientSample, gradient;
+        Region<float> lambda; ///< of the stratum and those around
+        Region<glm::vec4> control, moments, accumulated;
+        Region<glm::vec4> luminanceRange; ///< of the four tiles around
+        HistoryTapsPass::Region past;
+    };
+
+private:
+    HistoryTapsPass past_;
+    PixelFacts known_; ///< what needs no answer
+    glm::ivec2 size_{0}, strata_{0};
+    Regions at_;
+};
 
 } // namespace afterglow

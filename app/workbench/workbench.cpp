@@ -6,7 +6,7 @@
 namespace afterglow {
 namespace {
 
-constexpr double kStatsSeconds = 0.5;        // between two readings of counters, which wait
+constexpr double kStatsSeconds = 0.5;        // between two readings of counters
 constexpr double kReloadSeconds = 0.5;       // between two looks at the shader files
 constexpr double kOracleMilliseconds = 30.0; // of every round in which the truth converges
 
@@ -39,7 +39,13 @@ bool Workbench::advance(double wallSeconds, glm::ivec2 view) {
         view.x > 0 && view.y > 0 && !state.frozen && wantsFrame(state.time, self.sinceFrame);
     if (renders)
         self.renderFrame(wallSeconds, view);
+    else
+        self.collect();
     self.inspectPixel(renders);
+    self.instruments.submit();
+    // What a frame was found to be comes in with the next one, unless there is none.
+    if (!renders || !wantsFrame(state.time, std::numeric_limits<double>::infinity()))
+        self.collect();
     if (const auto message = self.recorder.poll())
         notify(state, message->text, message->isError);
     if (std::exchange(state.wanted.reloadShaders, false) || self.sinceReload > kReloadSeconds) {
@@ -47,6 +53,10 @@ bool Workbench::advance(double wallSeconds, glm::ivec2 view) {
         self.shaderErrors = self.shaders.reload().errors;
     }
     return renders;
+}
+
+void Workbench::finishMeasuring() {
+    impl_->collect();
 }
 
 double Workbench::secondsUntilFrame() const {
@@ -119,6 +129,7 @@ void Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
     const FrameMoment moment = prepareFrame(view);
     render(moment);
     noteTimes();
+    collect(); // of the frame before, while the device has this one to work on
     sinceFrame = 0.0;
     measure(moment);
     before = std::move(now);
@@ -144,18 +155,28 @@ void Workbench::Impl::noteTimes() {
 }
 
 void Workbench::Impl::measure(const FrameMoment& moment) {
-    log.add(instruments.read(renderer, state, state.time.frame, moment));
-    reasons = {};
-    if (state.showInspector)
-        for (const std::size_t pane : shownPanes(state.panes))
-            reasons[pane] = instruments.countReasons(renderer, state, pane);
+    instruments.measure(renderer, state, state.time.frame, moment);
+    if (sinceStats >= kStatsSeconds) {
+        sinceStats = 0.0;
+        instruments.count(renderer);
+    }
     if (recorder.isRecording())
         recorder.add(composedView());
-    if (sinceStats < kStatsSeconds)
-        return;
-    sinceStats = 0.0;
-    stats = renderer.readStats();
-    raysPerSecond = timings.frame() > 0.0 ? 1000.0 * double(stats.rays) / timings.frame() : 0.0;
+}
+
+// Waits for what was measured, if anything was.
+void Workbench::Impl::collect() {
+    Instruments::Measured measured = instruments.collect(renderer.scene());
+    if (measured.frame) {
+        log.add(*std::move(measured.frame));
+        reasons = measured.reasons;
+    }
+    if (measured.stats) {
+        stats = *measured.stats;
+        raysPerSecond = timings.frame() > 0.0 ? 1000.0 * double(stats.rays) / timings.frame() : 0.0;
+    }
+    if (measured.inspection)
+        inspection = std::move(measured.inspection);
 }
 
 void Workbench::Impl::followFreeze() {
@@ -205,7 +226,7 @@ void Workbench::Impl::inspectPixel(bool rendered) {
     const bool same = inspection && inspection->pixel == wanted->pixel &&
                       inspection->state == wanted->pane && inspection->signal == signal;
     if (rendered || !same)
-        inspection = inspect(renderer, wanted->pane, nowSettings, wanted->pixel, signal);
+        instruments.inspect(renderer, wanted->pane, nowSettings, wanted->pixel, signal);
 }
 
 const GpuTexture* Workbench::picture(std::size_t pane) {

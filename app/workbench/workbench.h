@@ -39,6 +39,11 @@ public:
     /// the window's part for pictures; empty: nothing is rendered. Returns whether a frame was.
     bool advance(double wallSeconds, glm::ivec2 view);
 
+    /// What probes, counters and the inspector have found in a frame comes in with the next one, or
+    /// in the round after it where there is none, and at once where time stands still. This waits
+    /// for it.
+    void finishMeasuring();
+
     /// How long nothing is to be done if nothing else happens: 0, or infinity.
     double secondsUntilFrame() const;
 
@@ -54,8 +59,9 @@ public:
     const PassTimings& timings() const; ///< of the device's work for frames, and for nothing else
     const FrameStats& stats() const;    ///< of a recent frame
     double raysPerSecond() const;       ///< of a frame, in the time that the device worked for it
-    const ProbeLog& probeLog() const;
-    /// Of the last frame, of a pane that is shown; kept up to date while the inspector is open.
+    const ProbeLog& probeLog() const;   ///< see finishMeasuring()
+    /// Of the last measured frame, of a pane that is shown; kept up to date while the inspector is
+    /// open.
     std::optional<ReasonCounts> reasons(std::size_t pane) const;
     const PassCapture& passes() const;
     const OracleView& oracle() const;

@@ -70,6 +70,8 @@ void Workbench::Impl::serveRequests() {
         attempt([&] { saveImageFiles(); });
     if (asked(wanted.record))
         attempt([&] { recordFrames(); });
+    if (wanted.copyCurves || wanted.saveCurves)
+        collect(); // curves are whole
     if (asked(wanted.copyCurves)) {
         copied = toCsv(log);
         notify(state, "The curves of " + std::to_string(log.frames().size()) +
@@ -206,6 +208,7 @@ void Workbench::Impl::enter(Scene scene, const std::string& sceneName, const std
         rememberFile(state.preferences, opened);
     enterScene(state, scene);
     renderer.setScene(std::move(scene));
+    instruments.drop();
     oracle.end();
     capture.clear();
     checkpoint.reset();

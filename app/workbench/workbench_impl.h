@@ -19,6 +19,7 @@ struct Workbench::Impl {
     void render(const FrameMoment& moment);
     void noteTimes();
     void measure(const FrameMoment& moment);
+    void collect();
     void followFreeze();
     void stepPass(int step);
     void inspectPixel(bool rendered);

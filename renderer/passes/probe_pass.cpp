@@ -62,18 +62,27 @@ void ProbePass::run(FrameContext& frame, const Inputs& in, glm::ivec2 min, glm::
                      {{"sums", sums_}});
 }
 
-ProbeReading ProbePass::read() const {
+ProbePass::Region ProbePass::copyTo(PixelReadback& readback) const {
     if (blocks_ == glm::ivec2(0))
         return {};
-    const auto sums = sums_.read<glm::vec4>();
+    return readback.add<glm::vec4>(sums_, {0, 0}, blocks_ * glm::ivec2(gpu::kProbeTexels, 1));
+}
+
+ProbeReading ProbePass::read() const {
+    PixelReadback readback;
+    const Region region = copyTo(readback);
+    readback.finish();
+    return readingOf(readback, region);
+}
+
+ProbeReading ProbePass::readingOf(const PixelReadback& readback, const Region& region) {
     Moments raw;
     ProbeReading total;
-    for (int y = 0; y < blocks_.y; ++y)
-        for (int x = 0; x < blocks_.x; ++x) {
-            const glm::ivec2 texel{x * gpu::kProbeTexels, y};
-            const glm::dvec4 counted = sums(texel);
-            const glm::dvec4 controlled = sums(texel + glm::ivec2(1, 0));
-            const glm::dvec4 means = sums(texel + glm::ivec2(2, 0));
+    for (int y = 0; y < region.size.y; ++y)
+        for (int x = 0; x < region.size.x; x += gpu::kProbeTexels) {
+            const glm::dvec4 counted = readback.pixel(region, {x, y});
+            const glm::dvec4 controlled = readback.pixel(region, {x + 1, y});
+            const glm::dvec4 means = readback.pixel(region, {x + 2, y});
             raw.add(
                 {counted.x, {means.x + means.z, means.y + means.w}, {controlled.z, controlled.w}});
             total.lit += counted.y;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/gl/readback.h"
 #include "renderer/gl/shader_library.h"
 #include "renderer/passes/frame_context.h"
 
@@ -37,6 +38,11 @@ public:
     /// Of the pixels `min` to `min + size`; those outside the picture do not count. Inputs of
     /// different sizes are std::logic_error.
     void run(FrameContext& frame, const Inputs& in, glm::ivec2 min, glm::ivec2 size);
+
+    /// What the last run has written; empty before the first.
+    using Region = PixelReadback::Region<glm::vec4>;
+    Region copyTo(PixelReadback& readback) const;
+    static ProbeReading readingOf(const PixelReadback& readback, const Region& region);
 
     /// Of the last run, which it waits for; all 0 before the first.
     ProbeReading read() const;

@@ -36,10 +36,20 @@ void ReasonPass::run(FrameContext& frame, const Inputs& in) {
                    {{"counts", counts_}});
 }
 
+ReasonPass::Region ReasonPass::copyTo(PixelReadback& readback) const {
+    return readback.add<std::uint32_t>(counts_, {0, 0}, counts_.size());
+}
+
 ReasonCounts ReasonPass::read() const {
-    const auto counts = counts_.read<std::uint32_t>();
+    PixelReadback readback;
+    const Region region = copyTo(readback);
+    readback.finish();
+    return countsOf(readback, region);
+}
+
+ReasonCounts ReasonPass::countsOf(const PixelReadback& readback, const Region& region) {
     ReasonCounts result;
-    const auto bins = counts.pixels();
+    const auto bins = readback.pixels(region);
     std::ranges::copy(bins.first(gpu::kHistoryBins), result.history.begin());
     std::ranges::copy(bins.subspan(gpu::kHistoryBins), result.fates.begin());
     return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/gl/readback.h"
 #include "renderer/gl/shader_library.h"
 #include "renderer/passes/frame_context.h"
 #include "shared/instrument_params.h"
@@ -27,6 +28,11 @@ public:
     explicit ReasonPass(ShaderLibrary& shaders);
     /// Control and guides of different sizes are std::logic_error.
     void run(FrameContext& frame, const Inputs& in);
+
+    /// What the last run has counted; 0 before the first.
+    using Region = PixelReadback::Region<std::uint32_t>;
+    Region copyTo(PixelReadback& readback) const;
+    static ReasonCounts countsOf(const PixelReadback& readback, const Region& region);
 
     /// Of the last run, which it waits for; all 0 before the first.
     ReasonCounts read() const;

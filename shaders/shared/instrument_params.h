@@ -25,6 +25,17 @@ struct ProbeParams {
 const uint kHistoryBins = 8u;
 const uint kFateBins = 16u;
 
+// Pixels that a history is interpolated between, and texels written for each: its visibility, its
+// guides and its moments, the latter two as bits. The column after them begins with the raw signal
+// that the gradient sample had in the frame before, as bits.
+const int kHistoryTaps = 4;
+const int kHistoryTapTexels = 3;
+
+struct HistoryTapsParams {
+    ivec2 pixel; // whose surface it is
+    ivec2 unused0;
+};
+
 struct DifferenceParams {
     int isAbsolute; // 1: |a - b|, 0: a - b
     int unused0, unused1, unused2;

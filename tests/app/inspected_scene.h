@@ -15,6 +15,22 @@ namespace afterglow::test {
 
 inline constexpr glm::ivec2 kInspectedSize{61, 37};
 
+/// What the last frame, of these settings, holds at a pixel: at once.
+inline PixelFacts pixelFacts(Renderer& renderer, std::size_t state, const FrameSettings& settings,
+                             glm::ivec2 pixel, std::size_t signal = 0) {
+    PixelQuery query(testShaders());
+    PixelReadback readback;
+    query.ask(renderer, state, settings, pixel, signal, readback);
+    readback.finish();
+    return query.answer(readback);
+}
+
+inline Inspection inspect(Renderer& renderer, std::size_t state, const FrameSettings& settings,
+                          glm::ivec2 pixel, std::size_t signal = 0) {
+    return inspectionOf(pixelFacts(renderer, state, settings, pixel, signal), renderer.scene(),
+                        state, signal);
+}
+
 inline const InspectedValue* find(const Inspection& inspection, std::string_view group,
                                   std::string_view name) {
     for (const InspectedGroup& g : inspection.groups)

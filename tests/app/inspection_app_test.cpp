@@ -60,7 +60,7 @@ void checkText(const InspectedValue& value) {
     }
 }
 
-int checkAgainstImages(const Renderer& renderer, const FrameSettings& settings,
+int checkAgainstImages(Renderer& renderer, const FrameSettings& settings,
                        const FilterRun& run) {
     std::map<std::string_view, Image<glm::vec4>> images;
     for (const Line& line : kLines)

@@ -51,6 +51,11 @@ struct Bench {
             REQUIRE(workbench.advance(kRound, kSize));
     }
     bool round() { return workbench.advance(kRound, kSize); }
+    /// With the last frame.
+    const ProbeLog& log() {
+        workbench.finishMeasuring();
+        return workbench.probeLog();
+    }
     Image<glm::u8vec4> picture(std::size_t pane) {
         const GpuTexture* const texture = workbench.picture(pane);
         REQUIRE(texture);
@@ -83,7 +88,7 @@ TEST_CASE(
     bench.press('1');
     bench.frames(52);
 
-    const ProbeLog& log = bench.workbench.probeLog();
+    const ProbeLog& log = bench.log();
     REQUIRE(log.frames().size() == 72);
     CHECK(log.frames()[20].marks.at(0).text.ends_with(" off"));
     CHECK(log.frames()[20].marks.at(0).step);
@@ -127,7 +132,7 @@ TEST_CASE("another filter, another pane and another layout clear no history") {
     setProbe(bench.state, 0, probeBetween({5, 5}, {55, 32}, kSize), kSize);
     bench.frames(24);
     const auto history = [&](std::size_t pane) {
-        const auto& newest = bench.workbench.probeLog().frames().back();
+        const auto& newest = bench.log().frames().back();
         return newest.samples[0][pane] ? newest.samples[0][pane]->history : -1.0;
     };
     CHECK(history(0) > 15.0);
@@ -225,8 +230,8 @@ TEST_CASE("an experiment in the window shows the frames that it measures, bit fo
         CHECK(differingPixels(bench.picture(0),
                               judge.targets().filters[0].display.read<glm::u8vec4>()) == 0);
     }
-    CHECK(bench.workbench.probeLog().frames().back().marks.empty());
-    CHECK(std::ranges::any_of(bench.workbench.probeLog().frames(), [](const ProbeFrame& f) {
+    CHECK(bench.log().frames().back().marks.empty());
+    CHECK(std::ranges::any_of(bench.log().frames(), [](const ProbeFrame& f) {
         return !f.marks.empty() && f.marks[0].text == "key to 50 %" && f.marks[0].step;
     }));
     const auto& recent = bench.state.preferences.recentFiles;
@@ -319,6 +324,7 @@ TEST_CASE("what passes make does not depend on whether somebody looks") {
     }
     show(watched.state, Shown::Kind::Picture);
     CHECK(differingPixels(watched.picture(0), alone.picture(0)) == 0);
+    watched.workbench.finishMeasuring();
     REQUIRE(watched.workbench.inspection());
     CHECK(watched.workbench.inspection()->pixel == glm::ivec2(30, 20));
     const auto reasons = watched.workbench.reasons(0);

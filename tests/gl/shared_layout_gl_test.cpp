@@ -63,16 +63,17 @@ const std::vector<SharedStruct>& sharedStructs() {
                       MEMBER(pixelsPerTexel), MEMBER(isFloatBits), MEMBER(low), MEMBER(high),
                       MEMBER(unused0), MEMBER(unused1)),
         SHARED_STRUCT(ProbeParams, "shared/instrument_params.h", MEMBER(first), MEMBER(end)),
+        SHARED_STRUCT(HistoryTapsParams, "shared/instrument_params.h", MEMBER(pixel),
+                      MEMBER(unused0)),
         SHARED_STRUCT(DifferenceParams, "shared/instrument_params.h", MEMBER(isAbsolute),
                       MEMBER(unused0), MEMBER(unused1), MEMBER(unused2)),
-        SHARED_STRUCT(FrameUniforms, "shared/frame.h", MEMBER(clipFromWorld),
-                      MEMBER(previousClipFromWorld), MEMBER(viewFromWorld),
-                      MEMBER(previousViewFromWorld), MEMBER(cameraPosition), MEMBER(tanHalfFov),
-                      MEMBER(ambient), MEMBER(extent), MEMBER(size), MEMBER(strata),
-                      MEMBER(frame), MEMBER(seed), MEMBER(historyValid),
-                      MEMBER(lightTriangleCount), MEMBER(aoRadius), MEMBER(signalClamp),
-                      MEMBER(sampleIndex), MEMBER(unused0), MEMBER(bvh.movingInstances),
-                      MEMBER(bvh.topRoot), MEMBER(bvh.pad0), MEMBER(bvh.pad1)),
+        SHARED_STRUCT(
+            FrameUniforms, "shared/frame.h", MEMBER(clipFromWorld), MEMBER(previousClipFromWorld),
+            MEMBER(viewFromWorld), MEMBER(previousViewFromWorld), MEMBER(cameraPosition),
+            MEMBER(tanHalfFov), MEMBER(ambient), MEMBER(extent), MEMBER(size), MEMBER(strata),
+            MEMBER(frame), MEMBER(seed), MEMBER(historyValid), MEMBER(lightTriangleCount),
+            MEMBER(aoRadius), MEMBER(signalClamp), MEMBER(sampleIndex), MEMBER(unused0),
+            MEMBER(bvh.movingInstances), MEMBER(bvh.topRoot), MEMBER(bvh.pad0), MEMBER(bvh.pad1)),
     };
     return structs;
 }
