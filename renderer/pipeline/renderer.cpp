@@ -1,5 +1,7 @@
 #include "renderer/pipeline/renderer_impl.h"
 
+#include "renderer/gl/device_memory.h"
+
 #include "shared/counters.h"
 
 #include <cmath>
@@ -38,7 +40,9 @@ const SceneStats& Renderer::sceneStats() const {
 void Renderer::resize(glm::ivec2 size) {
     if (size == impl_->targets.size)
         return;
-    impl_->targets = {}; // before the new ones are made: both may be too much
+    // Before the new ones are made: both may be too much.
+    impl_->targets = {};
+    impl_->requireMemoryFor(size, 1);
     impl_->targets = RenderTargets(size);
     impl_->states = {};
     impl_->converging.reset();
@@ -51,6 +55,22 @@ glm::ivec2 Renderer::size() const {
 
 void Renderer::resetHistory() {
     impl_->frame.forget();
+}
+
+// What a filter or a signal more takes is a part of that; a few megabytes are nobody's concern.
+void Renderer::Impl::requireMemoryFor(glm::ivec2 size, std::size_t filters) const {
+    constexpr std::size_t kSmall = std::size_t(64) << 20;
+    const double pixels = double(size.x) * double(size.y);
+    const ImageBytes perPixel = imageBytes(familyOf(Filter::Svgf).images);
+    const double count = double(signals.size());
+    const auto bytes = std::size_t(pixels * (perPixel.frame + count * perPixel.signal +
+                                             double(filters) * count * perPixel.filter));
+    if (bytes > kSmall)
+        requireMemory(bytes,
+                      "images of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                          " pixels (" + std::to_string(std::size_t(double(bytes) / pixels)) +
+                          " bytes a pixel)",
+                      software);
 }
 
 RanFilter Renderer::Impl::ranFilterOf(const FilterSettings& settings) {
@@ -114,8 +134,10 @@ void Renderer::Impl::startStates(std::span<const FilterRun> runs) {
 // Filters that did not run in the last frame go on where the first one that did has come to.
 void Renderer::Impl::startState(std::size_t state, const FilterFamily& family) {
     FilterTargets& own = targets.filters[state];
-    if (own.empty())
+    if (own.empty()) {
+        requireMemoryFor(targets.size, 1);
         own = FilterTargets(targets.size);
+    }
     const auto isOfFamily = [&](std::size_t other) {
         return states[other].ran && &familyOf(states[other].ran->settings.filter) == &family;
     };

@@ -18,9 +18,9 @@ namespace afterglow {
 
 struct Renderer::Impl {
     Impl(ShaderLibrary& library, const GlInfo& gl)
-        : shaders(library), timer(gl.softwareRasterizer), visibility(shaders),
-          forwardProject(shaders), surface(shaders), lighting(shaders), strata(shaders),
-          composite(shaders), tonemap(shaders), reference(shaders) {
+        : shaders(library), software(gl.softwareRasterizer), timer(gl.softwareRasterizer),
+          visibility(shaders), forwardProject(shaders), surface(shaders), lighting(shaders),
+          strata(shaders), composite(shaders), tonemap(shaders), reference(shaders) {
         programsOf(familyOf(Filter::Svgf)); // compiled before the first frame
     }
 
@@ -29,6 +29,7 @@ struct Renderer::Impl {
             throw std::logic_error("Renderer: setScene() and resize() come before a frame");
     }
     FrameContext context() { return {.timer = timer, .uniforms = &frame.block()}; }
+    void requireMemoryFor(glm::ivec2 size, std::size_t filters) const;
     static RanFilter ranFilterOf(const FilterSettings& settings);
     SignalFilter& programsOf(const FilterFamily& family);
     void begin(const FrameInput& input, const FrameSettings& settings);
@@ -48,6 +49,7 @@ struct Renderer::Impl {
     void placeSurfaces(FrameContext& context, double seconds);
 
     ShaderLibrary& shaders;
+    bool software;
     GpuTimer timer;
     VisibilityPass visibility;
     ForwardProjectPass forwardProject;

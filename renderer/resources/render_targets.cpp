@@ -129,11 +129,23 @@ std::size_t RenderTargets::bytes() const {
     return sumOfBytes;
 }
 
-double bytesPerPixel(std::span<const ImageDecl> filter) {
+ImageBytes imageBytes(std::span<const ImageDecl> filter) {
     // Whole strata and tiles: what a small picture takes is what a large one takes.
-    constexpr glm::ivec2 kSmall{48, 48};
-    return double(RenderTargets(kSmall).bytes() + bytesOf(filter, kSmall)) /
-           double(kSmall.x * kSmall.y);
+    static constexpr glm::ivec2 kSmall{24, 24};
+    const auto perPixel = [](std::size_t bytes) {
+        return double(bytes) / double(kSmall.x * kSmall.y);
+    };
+    RenderTargets targets(kSmall);
+    const std::size_t one = targets.bytes();
+    targets.setSignals(2);
+    const std::size_t signal = targets.bytes() - one;
+    const FilterTargets shown = FilterTargets(kSmall);
+    std::size_t picture = 0;
+    for (const GpuTexture* texture : shown.all())
+        picture += texture->bytes();
+    return {.frame = perPixel(one - signal - picture),
+            .signal = perPixel(signal),
+            .filter = perPixel(bytesOf(filter, kSmall) + picture)};
 }
 
 } // namespace afterglow

@@ -86,7 +86,12 @@ struct RenderTargets {
     GpuTexture counters; ///< R32UI: shared/counters.h
 };
 
-/// Bytes that images take a pixel, for one signal and one filter of these images.
-double bytesPerPixel(std::span<const ImageDecl> filter);
+/// Bytes that images take a pixel.
+struct ImageBytes {
+    double frame;  ///< whatever signals and filters there are
+    double signal; ///< each
+    double filter; ///< each, of each signal
+};
+ImageBytes imageBytes(std::span<const ImageDecl> filter);
 
 } // namespace afterglow
