@@ -57,6 +57,7 @@ Experiment changed(Experiment experiment, const ExperimentOptions& options) {
             options.samples.value_or(std::max(8, experiment.referenceSamples / kQuickSamples));
     if (options.frames)
         experiment.timeline = shortened(experiment.timeline, *options.frames);
+    experiment.signal = options.signal.value_or(experiment.signal);
     changeVariants(experiment, options);
     return experiment;
 }

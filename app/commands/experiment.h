@@ -24,6 +24,7 @@ struct ExperimentOptions {
     // Instead of what the experiments say themselves:
     std::optional<glm::ivec2> size;
     std::optional<int> frames;        ///< events at later frames do not happen
+    std::optional<Signal> signal;     ///< instead of the experiment's own
     std::optional<int> samples;       ///< of each reference, per pixel
     std::vector<std::string> filters; ///< as variants
     std::vector<std::pair<std::string, std::string>> settings; ///< of every variant, for setField()

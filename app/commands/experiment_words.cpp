@@ -34,6 +34,8 @@ void addCommon(CLI::App& app, ExperimentWords& words) {
     addOption(app, "--size", words.size, "WxH", "Instead of the experiment's own");
     addOption(app, "--frames,-n", words.frames, "N",
               "Instead of the experiment's own; later events do not happen");
+    addOption(app, "--signal", words.signal, "NAME",
+              "shadows, ao, both or separate, instead of the experiment's own");
     addOption(app, "--spp", words.samples, "N", "Samples a pixel of each reference, likewise");
     app.add_flag("--quick", words.quick, "96x54 pixels and an eighth of the reference samples");
     app.add_flag("--fresh", words.fresh, "Do again what DIR already holds");
@@ -88,6 +90,8 @@ ExperimentOptions ExperimentWords::parse() const {
         options.size = parseSize("--size", *size);
     if (frames)
         options.frames = int(parseWhole("--frames", *frames, 1, kMostFrames));
+    if (signal)
+        options.signal = signalFromName(*signal);
     if (samples)
         options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
     if (filters)

@@ -12,7 +12,7 @@ CacheOptions parseCache(const Text& folder, bool none);
 
 struct ExperimentWords {
     Texts experiments, settings;
-    Text size, frames, samples, filters, part, cache, context, out;
+    Text size, frames, signal, samples, filters, part, cache, context, out;
     bool quick = false, fresh = false, noCache = false;
 
     void addTo(CLI::App& app);

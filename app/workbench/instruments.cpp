@@ -58,11 +58,16 @@ void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std:
     for (std::size_t i = 0; i < kProbes; ++i) {
         if (!frame_->probes[i])
             continue;
-        probe_.run(context,
-                   {renderer.filteredSignal(pane, signal), t.signals[signal].raw.current(),
-                    renderer.demodulation(signal), t.surfaces.guides,
-                    controlOf(renderer, pane, signal)},
-                   frame_->probes[i]->min, frame_->probes[i]->size);
+        ProbePass::Inputs in{renderer.filteredSignal(pane, signal), t.signals[signal].raw.current(),
+                             renderer.demodulation(signal), t.surfaces.guides,
+                             controlOf(renderer, pane, signal)};
+        if (renderer.signals().size() > 1) {
+            const std::size_t other = 1 - signal; // there are two at most
+            in.other.emplace(ProbePass::OtherSignal{renderer.filteredSignal(pane, other),
+                                                    t.signals[other].raw.current(),
+                                                    renderer.demodulation(other)});
+        }
+        probe_.run(context, in, frame_->probes[i]->min, frame_->probes[i]->size);
         pendingProbes_.push_back({i, pane, plan, probe_.copyTo(readback_)});
     }
 }

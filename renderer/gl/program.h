@@ -111,6 +111,13 @@ public:
                   std::initializer_list<Binding> writes) {
         dispatch(glm::ivec3(size, 1), reads, writes);
     }
+    // Where what is read depends on the frame.
+    template <class Params>
+    void dispatch(glm::ivec2 size, const Params& params, std::span<const Binding> reads,
+                  std::span<const Binding> writes) {
+        static_assert(sizeof(Params) % 16 == 0, "GLSL rounds block sizes up to 16 bytes; pad");
+        dispatchBytes(glm::ivec3(size, 1), std::as_bytes(std::span(&params, 1)), reads, writes);
+    }
     void dispatch(glm::ivec2 size, std::span<const Binding> reads,
                   std::span<const Binding> writes) {
         dispatchBytes(glm::ivec3(size, 1), {}, reads, writes);

@@ -2,7 +2,9 @@
 
 #include "shared/instrument_params.h"
 
+#include <array>
 #include <stdexcept>
+#include <vector>
 
 namespace afterglow {
 namespace {
@@ -51,15 +53,21 @@ void ProbePass::run(FrameContext& frame, const Inputs& in, glm::ivec2 min, glm::
         sums_ = GpuTexture("probe sums", PixelFormat::RGBA32F, glm::max(texels, sums_.size()));
 
     // Compiled when it is first needed: most runs have no probes.
-    ComputeProgram& program = shaders_.compute("post/probe.comp");
+    ComputeProgram& program =
+        shaders_.compute("post/probe.comp", in.other ? Defines{{"OTHER_SIGNAL", "1"}} : Defines{});
     const auto scope = frame.timer.scope(frame.prefix + "probe");
-    program.dispatch(blocks_ * glm::ivec2(program.groupSize()), params,
-                     {{"filtered", in.filtered},
-                      {"raw", in.raw},
-                      {"albedo", in.albedo},
-                      {"guides", in.guides},
-                      {"control", in.control}},
-                     {{"sums", sums_}});
+    std::vector<Binding> reads{{"filtered", in.filtered},
+                               {"raw", in.raw},
+                               {"albedo", in.albedo},
+                               {"guides", in.guides},
+                               {"control", in.control}};
+    if (in.other) {
+        reads.emplace_back("otherFiltered", in.other->filtered);
+        reads.emplace_back("otherRaw", in.other->raw);
+        reads.emplace_back("otherDemodulation", in.other->demodulation);
+    }
+    const std::array<Binding, 1> writes{Binding{"sums", sums_}};
+    program.dispatch(blocks_ * glm::ivec2(program.groupSize()), params, reads, writes);
 }
 
 ProbePass::Region ProbePass::copyTo(PixelReadback& readback) const {

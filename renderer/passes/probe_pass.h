@@ -5,6 +5,7 @@
 #include "renderer/passes/frame_context.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace afterglow {
 
@@ -25,12 +26,17 @@ struct ProbeReading {
 /// shaders/post/probe.comp.
 class ProbePass {
 public:
+    /// What lights the picture beside the signal that is looked at.
+    struct OtherSignal {
+        const GpuTexture &filtered, &raw, &demodulation;
+    };
     struct Inputs {
         const GpuTexture& filtered; ///< RGBA32F: signal, variance
         const GpuTexture& raw;      ///< RGBA32F: signal of one sample, luminance
         const GpuTexture& albedo;
         const GpuTexture& guides;  ///< w: depth; 0: background
         const GpuTexture& control; ///< lambda, alpha, history length, reason
+        std::optional<OtherSignal> other = {};
     };
 
     explicit ProbePass(ShaderLibrary& shaders);

@@ -21,6 +21,11 @@ Float4Texture(raw);      // rgb: signal of one sample; a: luminance
 Float4Texture(albedo);
 Float4Texture(guides);  // w: depth; 0: background, which does not count
 Float4Texture(control); // lambda, alpha, history length, reason
+#ifdef OTHER_SIGNAL // the picture is lit by two
+Float4Texture(otherFiltered);
+Float4Texture(otherRaw);
+Float4Texture(otherDemodulation);
+#endif
 
 writeonly uniform image2D sums; // kProbeTexels texels a block: see shared/instrument_params.h
 
@@ -91,8 +96,14 @@ void main() {
         vec4 noisy = fetch(raw, p);
         vec4 driven = fetch(control, p);
         vec3 surface = fetch(albedo, p).rgb;
-        moments = with(moments, vec2(noisy.a, luminance(noisy.rgb * surface)));
-        lit += vec3(luminance(signal.rgb * surface), signal.a, driven.x);
+        vec3 otherLit = vec3(0.0), otherNoise = vec3(0.0);
+#ifdef OTHER_SIGNAL
+        vec3 factor = fetch(otherDemodulation, p).rgb;
+        otherLit = fetch(otherFiltered, p).rgb * factor;
+        otherNoise = fetch(otherRaw, p).rgb * factor;
+#endif
+        moments = with(moments, vec2(noisy.a, luminance(noisy.rgb * surface + otherNoise)));
+        lit += vec3(luminance(signal.rgb * surface + otherLit), signal.a, driven.x);
         state += driven.yz;
     }
     counted[own] = vec4(moments.count, lit);

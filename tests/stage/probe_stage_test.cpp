@@ -287,6 +287,46 @@ TEST_CASE("a probe refuses images of different sizes") {
                          "ProbePass: control is not of the size of filtered", std::logic_error);
 }
 
+TEST_CASE("of two signals a probe reads the picture, and the filter of one") {
+    const GlCheck noGlMessages;
+    Picture picture = randomPicture({61, 37}, 3);
+    const Picture second = randomPicture({61, 37}, 4);
+    for (std::size_t i = 0; i < picture.guides.pixels().size(); ++i) // the surfaces of both
+        if (second.guides.pixels()[i].w == 0.0f)
+            picture.guides.pixels()[i].w = 0.0f;
+    const GpuTexture filtered = upload("filtered", picture.filtered);
+    const GpuTexture raw = upload("raw", picture.raw);
+    const GpuTexture albedo = upload("albedo", picture.albedo);
+    const GpuTexture guides = upload("guides", picture.guides);
+    const GpuTexture control = upload("control", picture.control);
+    const GpuTexture otherFiltered = upload("filtered", second.filtered);
+    const GpuTexture otherRaw = upload("raw", second.raw);
+    const GpuTexture otherAlbedo = upload("albedo", second.albedo);
+    GpuTimer timer(true);
+    FrameContext context{timer};
+    ProbePass pass(testShaders());
+    pass.run(context,
+             {filtered, raw, albedo, guides, control,
+              ProbePass::OtherSignal{otherFiltered, otherRaw, otherAlbedo}},
+             {7, 3}, {40, 30});
+    const ProbeReading both = pass.read();
+
+    const Rectangle rectangle{{7, 3}, {40, 30}};
+    const ProbeReading one = reference(picture, rectangle);
+    Picture rest = second;
+    rest.guides = picture.guides;
+    const ProbeReading other = reference(rest, rectangle);
+    CHECK(both.pixels == one.pixels);
+    CHECK(both.lit == doctest::Approx(one.lit + other.lit).epsilon(1e-6));
+    CHECK(both.rawLit == doctest::Approx(one.rawLit + other.rawLit).epsilon(1e-6));
+    CHECK(both.lambda == doctest::Approx(one.lambda).epsilon(1e-6));
+    CHECK(both.alpha == doctest::Approx(one.alpha).epsilon(1e-6));
+    CHECK(both.variance == doctest::Approx(one.variance).epsilon(1e-6));
+    CHECK(both.rawVariance == doctest::Approx(one.rawVariance).epsilon(1e-5));
+    CHECK(both.rawLitVariance > 0.0);
+    CHECK(other.lit > 0.1 * one.lit);
+}
+
 TEST_CASE("mistakes in the probe show") {
     const GlCheck noGlMessages;
     const glm::ivec2 size{170, 101};
@@ -304,9 +344,10 @@ TEST_CASE("mistakes in the probe show") {
           "fetch(guides, inside).w == -1.0"},
          {"pixels beyond the rectangle count", file, "p != inside || ", ""},
          {"the rectangle begins at the corner", file, "params.first + block", "block"},
-         {"the picture is shown without its albedo", file, "luminance(signal.rgb * surface)",
-          "luminance(signal.rgb)"},
-         {"so is the raw one", file, "luminance(noisy.rgb * surface)", "luminance(noisy.rgb)"},
+         {"the picture is shown without its albedo", file,
+          "luminance(signal.rgb * surface + otherLit)", "luminance(signal.rgb)"},
+         {"so is the raw one", file, "luminance(noisy.rgb * surface + otherNoise)",
+          "luminance(noisy.rgb)"},
          {"the variance is the signal's red", file, "signal.a", "signal.r"},
          {"lambda is alpha", file, "driven.x", "driven.y"},
          {"alpha is lambda", file, "driven.yz", "driven.xz"},
