@@ -1,6 +1,7 @@
 #include "renderer/gl/buffer.h"
 
 #include "renderer/base/error.h"
+#include "renderer/gl/errors.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -11,7 +12,9 @@ GpuBuffer::GpuBuffer(std::string_view label, std::size_t bytes) : label_(label),
     if (bytes == 0)
         return; // OpenGL has no empty buffers
     object_ = GlObject<BufferKind>::create(label);
-    glNamedBufferStorage(id(), GLsizeiptr(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    allocateGl("buffer " + label_, std::to_string(bytes) + " bytes", bytes, [&] {
+        glNamedBufferStorage(id(), GLsizeiptr(bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    });
     clear();
 }
 

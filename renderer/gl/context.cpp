@@ -3,6 +3,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/log.h"
 #include "renderer/gl/context_backends.h"
+#include "renderer/gl/errors.h"
 
 #include <algorithm>
 #include <array>
@@ -38,8 +39,9 @@ LogLevel levelOf(GLenum source, GLenum type, GLuint id) {
     }
 }
 
+// The driver calls it, maybe from a thread of its own. Nothing may be thrown through it.
 void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum, GLsizei length,
-                          const GLchar* text, const void*) {
+                          const GLchar* text, const void*) noexcept {
     const LogLevel level = levelOf(source, type, id);
     if (level != LogLevel::Debug)
         ++messageCount;
@@ -47,6 +49,8 @@ void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum, GLsizei
     message.append(text, length >= 0 ? std::size_t(length) : std::string_view(text).size());
     while (message.ends_with('\n') || message.ends_with(' '))
         message.pop_back();
+    if (level == LogLevel::Error && type == GL_DEBUG_TYPE_ERROR)
+        noteReportedGlError(message);
     log(level, message);
 }
 

@@ -1,5 +1,7 @@
 #include "renderer/gl/texture.h"
 
+#include "renderer/gl/errors.h"
+
 #include <stdexcept>
 
 namespace afterglow {
@@ -9,7 +11,9 @@ GpuTexture::GpuTexture(std::string_view label, PixelFormat format, glm::ivec2 si
     if (size.x <= 0 || size.y <= 0)
         throw std::logic_error("texture " + label_ + " would be " + sizeText(size) + " pixels");
     object_ = GlObject<TextureKind>::create(label, GLenum(GL_TEXTURE_2D));
-    glTextureStorage2D(id(), 1, info(format).internal, size.x, size.y);
+    allocateGl("texture " + label_, sizeText(size) + " pixels of " + std::string(info(format).name),
+               bytes(),
+               [&] { glTextureStorage2D(id(), 1, info(format).internal, size.x, size.y); });
     glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTextureParameteri(id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

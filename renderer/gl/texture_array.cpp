@@ -1,6 +1,7 @@
 #include "renderer/gl/texture_array.h"
 
 #include "renderer/base/error.h"
+#include "renderer/gl/errors.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -49,7 +50,12 @@ GpuTextureArray::GpuTextureArray(std::string_view label, PixelFormat format, glm
                     std::to_string(mostLayers) + " layers and " + std::to_string(mostPixels) +
                     " pixels along a side");
     object_ = GlObject<TextureKind>::create(label, GLenum(GL_TEXTURE_2D_ARRAY));
-    glTextureStorage3D(id(), levels, info(format).internal, size.x, size.y, layers);
+    allocateGl("texture " + label_,
+               std::to_string(layers) + " layers of " + sizeText(size) + " pixels of " +
+                   std::string(info(format).name) + " with " + std::to_string(levels) + " levels",
+               bytes(), [&] {
+                   glTextureStorage3D(id(), levels, info(format).internal, size.x, size.y, layers);
+               });
     setSampling({});
 }
 

@@ -1,0 +1,101 @@
+#include "renderer/gl/errors.h"
+
+#include "renderer/base/error.h"
+
+#include <cstdio>
+#include <mutex>
+#include <vector>
+
+#include <glad/gl.h>
+
+namespace afterglow {
+
+namespace {
+
+// A driver may report from a thread of its own.
+struct Account {
+    std::mutex mutex;
+    int reported = 0, unreported = 0;
+    int reportedAtSweep = 0;
+    std::string first;
+};
+
+Account& account() {
+    static Account shared;
+    return shared;
+}
+
+std::string nameOf(GLenum error) {
+    switch (error) {
+    case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
+    case GL_CONTEXT_LOST: return "GL_CONTEXT_LOST";
+    default: return "error " + std::to_string(error);
+    }
+}
+
+/// All that glGetError() has to tell: a flag for each kind of error. A lost context tells of that
+/// without end.
+std::vector<GLenum> takeErrors() {
+    constexpr std::size_t kKinds = 8;
+    std::vector<GLenum> errors;
+    while (errors.size() < kKinds) {
+        const GLenum error = glGetError();
+        if (error == GL_NO_ERROR)
+            break;
+        errors.push_back(error);
+    }
+    return errors;
+}
+
+/// Counts these errors unless the driver has reported since the last time: then they are the same.
+void countTaken(const std::vector<GLenum>& errors) {
+    Account& all = account();
+    const std::lock_guard lock(all.mutex);
+    if (all.reported == all.reportedAtSweep && !errors.empty()) {
+        all.unreported += int(errors.size());
+        if (all.first.empty())
+            all.first = nameOf(errors.front());
+    }
+    all.reportedAtSweep = all.reported;
+}
+
+} // namespace
+
+int glErrorCount() {
+    const std::lock_guard lock(account().mutex);
+    return account().reported + account().unreported;
+}
+
+std::string firstGlError() {
+    const std::lock_guard lock(account().mutex);
+    return account().first;
+}
+
+void sweepGlErrors() {
+    countTaken(takeErrors());
+}
+
+void noteReportedGlError(std::string_view message) {
+    const std::lock_guard lock(account().mutex);
+    ++account().reported;
+    if (account().first.empty())
+        account().first = message;
+}
+
+void requireAllocated(std::string_view object, std::string_view wanted, std::size_t bytes) {
+    std::vector<GLenum> errors = takeErrors();
+    const bool isFull = std::erase(errors, GLenum(GL_OUT_OF_MEMORY)) > 0;
+    countTaken(errors);
+    if (!isFull)
+        return;
+    char size[32];
+    std::snprintf(size, sizeof size, "%.1f MiB", double(bytes) / (1024.0 * 1024.0));
+    throw Error(std::string(object) + ": the driver has no memory for " + std::string(wanted) +
+                ", " + size);
+}
+
+} // namespace afterglow

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace afterglow {
+
+/// Returns the number of errors of OpenGL so far, over all contexts of the process: those that
+/// drivers reported, and those that sweepGlErrors() found.
+int glErrorCount();
+
+/// Returns the first of them in words; empty while there are none.
+std::string firstGlError();
+
+/// Counts the errors that glGetError() has to tell and that no driver reported: a context that was
+/// not made for debugging may report nothing. For the end of a context's work.
+void sweepGlErrors();
+
+/// For the callback of initializeGl(), on any thread.
+void noteReportedGlError(std::string_view message);
+
+/// For allocateGl().
+void requireAllocated(std::string_view object, std::string_view wanted, std::size_t bytes);
+
+/// Calls `allocate`, which makes the storage of one object, and throws Error if the driver has no
+/// memory for it: "texture raw: the driver has no memory for 61 x 37 pixels of RGBA32F, 0.1 MiB".
+/// Errors that were there before stay counted and are not taken for its own.
+template <class Allocate>
+void allocateGl(std::string_view object, std::string_view wanted, std::size_t bytes,
+                Allocate allocate) {
+    sweepGlErrors();
+    allocate();
+    requireAllocated(object, wanted, bytes);
+}
+
+} // namespace afterglow
