@@ -215,6 +215,14 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
                        written ? GL_READ_WRITE : GL_READ_ONLY, info(formatOf(binding)).internal);
 }
 
+// Reads then give zero, and stores do nothing: never the texture of a program before.
+void LinkedProgram::unbind(const Slot& slot) const {
+    if (isImage(slot.type))
+        glBindImageTexture(GLuint(slot.unit), 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
+    else
+        glBindTextureUnit(GLuint(slot.unit), 0);
+}
+
 void LinkedProgram::bind(std::span<const Binding> reads, std::span<const Binding> writes) {
     std::vector<const Slot*> given;
     const auto bindAll = [&](std::span<const Binding> bindings, bool written) {
@@ -237,9 +245,11 @@ void LinkedProgram::bind(std::span<const Binding> reads, std::span<const Binding
 
     std::string missing;
     for (const Slot& slot : slots_)
-        if (!std::ranges::count(given, &slot))
+        if (!std::ranges::count(given, &slot)) {
+            unbind(slot);
             missing += (missing.empty() ? "" : ", ") + slot.name;
-    if (!missing.empty())
+        }
+    if (!missing.empty() && strictBindings)
         throw std::logic_error(name_ + " uses " + slotNames() + " but was not given " + missing);
 }
 

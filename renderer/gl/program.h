@@ -33,9 +33,10 @@ struct Binding {
     const GpuBuffer* block = nullptr;
 };
 
-/// Whether a name that a program does not use is std::logic_error. On from the start in builds that
-/// take shaders from the source folder, and in tests; off elsewhere, since a driver may drop a
-/// texture that it proves unused, and drivers prove different things.
+/// Makes a name that a program does not use, or that it uses and was not given, std::logic_error.
+/// On from the start in builds that take shaders from the source folder, and in tests; off
+/// elsewhere: a driver may drop a texture that it proves unused, or keep one whose use the defines
+/// removed, and drivers prove different things.
 void setStrictBindings(bool strict);
 
 /// What a linked program needs from outside: its textures and uniform blocks by name, and one block
@@ -53,9 +54,9 @@ public:
     GLuint id() const { return program_.id(); }
     const std::string& name() const { return name_; }
 
-    /// `reads` may be samplers or images in the shader, `writes` are images.
-    /// Throws std::logic_error when a name is missing, surplus (see setStrictBindings), given
-    /// twice, or of another kind than the shader declares.
+    /// `reads` may be samplers or images in the shader, `writes` are images. What is not given is
+    /// left without a texture. Throws std::logic_error when a name is missing or surplus (see
+    /// setStrictBindings), given twice, or of another kind than the shader declares.
     void bind(std::span<const Binding> reads, std::span<const Binding> writes);
     /// std::logic_error unless it is of the size of the block; no bytes for no block.
     void setParams(std::span<const std::byte> params);
@@ -72,6 +73,7 @@ private:
     void reflectBlocks();
     const Slot* find(std::string_view name) const;
     void bindOne(const Slot& slot, const Binding& binding, bool written) const;
+    void unbind(const Slot& slot) const;
     std::string slotNames() const;
 
     std::string name_;
