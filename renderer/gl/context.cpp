@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 
 namespace afterglow {
 
@@ -118,14 +119,26 @@ int glMessageCount() {
     return messageCount;
 }
 
+bool isSoftwareRenderer(std::string_view renderer) {
+    std::string name(renderer);
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char letter) { return char(std::tolower(letter)); });
+    // Drivers on top of others (zink, ANGLE, D3D12, virgl) name those.
+    for (const std::string_view known :
+         {"llvmpipe", "lavapipe", "softpipe", "swiftshader", "microsoft basic render",
+          "gdi generic", "software rasterizer", "apple software renderer"})
+        if (name.find(known) != std::string::npos)
+            return true;
+    return name == "swr" || name.starts_with("swr "); // three letters could be part of a name
+}
+
 GlInfo glInfo(const GlContext& context) {
     GlInfo info;
     info.vendor = text(GL_VENDOR);
     info.renderer = text(GL_RENDERER);
     info.version = text(GL_VERSION);
     info.backend = context.backend();
-    info.softwareRasterizer = info.renderer.find("llvmpipe") != std::string::npos ||
-                              info.renderer.find("softpipe") != std::string::npos;
+    info.softwareRasterizer = isSoftwareRenderer(info.renderer);
     int units = 0, uniforms = 0;
     glGetIntegerv(GL_MAX_IMAGE_UNITS, &units);
     glGetIntegerv(GL_MAX_COMPUTE_IMAGE_UNIFORMS, &uniforms);

@@ -35,6 +35,9 @@ void initializeGl(GLADloadfunc load, std::string_view backend);
 /// badly: errors, undefined or deprecated behavior, performance.
 int glMessageCount();
 
+/// Tells from the name of a renderer (GL_RENDERER) that the CPU draws.
+bool isSoftwareRenderer(std::string_view renderer);
+
 struct GlInfo {
     std::string vendor, renderer, version, backend;
     bool softwareRasterizer; ///< the CPU draws: timer queries are useless, image loads are fast
