@@ -73,27 +73,30 @@ std::string shortVersion(std::string version) {
 
 } // namespace
 
-std::unique_ptr<GlContext> createHeadlessContext(Backend backend) {
+std::unique_ptr<GlContext> createHeadlessContext(Backend backend, ContextOptions options) {
+#ifdef AFTERGLOW_SHADER_DIR // a build for development
+    options.debug = true;
+#endif
     switch (backend) {
-    case Backend::OsMesa: return createOsMesaContext();
-    case Backend::Egl: return createEglContext();
+    case Backend::OsMesa: return createOsMesaContext(options);
+    case Backend::Egl: return createEglContext(options);
     case Backend::Auto: break;
     }
     std::string eglError;
     try {
-        return createEglContext();
+        return createEglContext(options);
     } catch (const ContextError& error) {
         eglError = error.what();
     }
     try {
-        return createOsMesaContext();
+        return createOsMesaContext(options);
     } catch (const ContextError& error) {
         throw ContextError("no OpenGL 4.5 context without a window: " + eglError + "; " +
                            error.what());
     }
 }
 
-void initializeGl(GLADloadfunc load, std::string_view backend) {
+void initializeGl(GLADloadfunc load, std::string_view backend, bool debug) {
     const int version = gladLoadGL(load);
     if (version == 0)
         throw ContextError(std::string(backend) + " gives no OpenGL functions");
@@ -102,7 +105,12 @@ void initializeGl(GLADloadfunc load, std::string_view backend) {
                            "; 4.5 is needed");
 
     glEnable(GL_DEBUG_OUTPUT);
-    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    GLint flags = 0;
+    glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
+    if (debug || (flags & GL_CONTEXT_FLAG_DEBUG_BIT))
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    else
+        glDisable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(onMessage, nullptr);
     glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
     // Where a buffer lies, which groups were pushed: so many that they cost time.

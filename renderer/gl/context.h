@@ -22,14 +22,23 @@ enum class Backend {
     Egl,    ///< a GPU's own driver where there is one, else Mesa without a surface
 };
 
+struct ContextOptions {
+    /// Lets the driver check more, and report each message before the call returns that it is
+    /// about. Always so in builds that take shaders from the source folder.
+    bool debug = false;
+};
+
 /// A context without a window. It has no default framebuffer that could be drawn into.
 /// Throws ContextError, one line that names the library or version that is missing.
-std::unique_ptr<GlContext> createHeadlessContext(Backend backend = Backend::Auto);
+std::unique_ptr<GlContext> createHeadlessContext(Backend backend = Backend::Auto,
+                                                 ContextOptions options = {});
 
 /// What every back end does once its context is current: loads the functions, checks for 4.5, sends
-/// the driver's messages to the log as they happen, puts row 0 at the top (glClipControl) with
+/// the driver's messages to the log, puts row 0 at the top (glClipControl) with
 /// depth in [0, 1], and packs pixels without padding. Throws ContextError.
-void initializeGl(GLADloadfunc load, std::string_view backend);
+/// Messages are told as they happen if the context is one for debugging, or if it is to be taken
+/// for one: elsewhere that would cost drivers with threads their speed.
+void initializeGl(GLADloadfunc load, std::string_view backend, bool debug = false);
 
 /// Messages so far, over all contexts of the process, that mean this program uses OpenGL wrongly or
 /// badly: errors, undefined or deprecated behavior, performance.

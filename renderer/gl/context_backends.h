@@ -8,8 +8,8 @@ namespace afterglow {
 
 // For context.cpp: one function a back end. Each opens its library at run time and throws
 // ContextError when that is missing or has no OpenGL 4.5.
-std::unique_ptr<GlContext> createOsMesaContext();
-std::unique_ptr<GlContext> createEglContext();
+std::unique_ptr<GlContext> createOsMesaContext(const ContextOptions& options);
+std::unique_ptr<GlContext> createEglContext(const ContextOptions& options);
 
 /// A library opened at run time. It stays open until the process ends: drivers do not survive being
 /// unloaded while a thread of theirs is running.

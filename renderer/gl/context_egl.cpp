@@ -98,12 +98,13 @@ std::vector<Candidate> candidates(const Egl& egl) {
 class EglContext final : public GlContext {
 public:
     /// Throws ContextError, with nothing left behind.
-    EglContext(const Egl& egl, EGLDisplay display) : egl_(egl), display_(display) {
+    EglContext(const Egl& egl, EGLDisplay display, const ContextOptions& options)
+        : egl_(egl), display_(display) {
         if (display_ == EGL_NO_DISPLAY || !egl_.initialize(display_, nullptr, nullptr))
             throw ContextError("cannot be initialized");
         try {
-            create();
-            initializeGl(egl_.procAddress, backend());
+            create(options.debug);
+            initializeGl(egl_.procAddress, backend(), options.debug);
         } catch (...) {
             release();
             throw;
@@ -116,7 +117,7 @@ public:
     std::string_view backend() const override { return "EGL"; }
 
 private:
-    void create() {
+    void create(bool debug) {
         const char* extensions = egl_.queryString(display_, EGL_EXTENSIONS);
         if (!hasWord(extensions, "EGL_KHR_surfaceless_context"))
             throw ContextError("has no EGL_KHR_surfaceless_context");
@@ -139,10 +140,8 @@ private:
                                     minor,
                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-#ifdef AFTERGLOW_SHADER_DIR // a build for development: let the driver check more and say more
                                     EGL_CONTEXT_OPENGL_DEBUG,
-                                    EGL_TRUE,
-#endif
+                                    debug ? EGL_TRUE : EGL_FALSE,
                                     EGL_NONE};
             return egl_.createContext(display_, config, EGL_NO_CONTEXT, wanted.data());
         };
@@ -170,12 +169,12 @@ private:
 
 } // namespace
 
-std::unique_ptr<GlContext> createEglContext() {
+std::unique_ptr<GlContext> createEglContext(const ContextOptions& options) {
     const Egl egl;
     std::string failures;
     for (const auto& [name, display] : candidates(egl)) {
         try {
-            return std::make_unique<EglContext>(egl, display);
+            return std::make_unique<EglContext>(egl, display, options);
         } catch (const ContextError& error) {
             const std::string reason = error.what(); // one reason is named once
             if (failures.find(reason) == std::string::npos)

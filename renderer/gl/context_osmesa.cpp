@@ -23,7 +23,7 @@ struct OsMesa {
 
 class OsMesaContext final : public GlContext {
 public:
-    OsMesaContext() {
+    explicit OsMesaContext(const ContextOptions& options) {
         const std::array core45{OSMESA_FORMAT,
                                 OSMESA_RGBA,
                                 OSMESA_PROFILE,
@@ -43,7 +43,8 @@ public:
             // OSMesa insists on a buffer to draw into; a pixel will do, as nothing is drawn there.
             if (!mesa_.makeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1))
                 throw ContextError("libOSMesa.so.8 does not make its context current");
-            initializeGl(mesa_.procAddress, backend());
+            // It has no contexts for debugging, and reports as it goes.
+            initializeGl(mesa_.procAddress, backend(), options.debug);
         } catch (...) {
             release();
             throw;
@@ -68,8 +69,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<GlContext> createOsMesaContext() {
-    return std::make_unique<OsMesaContext>();
+std::unique_ptr<GlContext> createOsMesaContext(const ContextOptions& options) {
+    return std::make_unique<OsMesaContext>(options);
 }
 
 } // namespace afterglow

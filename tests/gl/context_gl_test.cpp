@@ -1,9 +1,12 @@
 #include "renderer/base/error.h"
 #include "renderer/base/log.h"
 #include "renderer/gl/context_backends.h"
+#include "renderer/gl/errors.h"
 #include "tests/support/compare.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/glsl_probe.h"
+
+#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -64,7 +67,7 @@ TEST_CASE("contexts of either back end work one after the other in one process")
     for (const Backend backend : {Backend::OsMesa, Backend::Egl, Backend::OsMesa, Backend::Egl,
                                   Backend::Egl, Backend::Auto}) {
         const GlCheck check;
-        const auto context = createHeadlessContext(backend);
+        const auto context = createHeadlessContext(backend, {.debug = true});
         CAPTURE(context->backend());
         if (backend != Backend::Auto)
             CHECK(context->backend() == (backend == Backend::Egl ? "EGL" : "OSMesa"));
@@ -111,6 +114,49 @@ TEST_CASE("an error of OpenGL is logged where it happens, and counted") {
     CHECK(log.messages.front().starts_with("OpenGL: "));
     CHECK(log.messages.front().find('\n') == std::string::npos);
     CHECK(glGetError() == GL_INVALID_ENUM);
+}
+
+TEST_CASE("messages come as they happen in a context for debugging, and only there") {
+    releaseTestContext();
+    const auto isDebugContext = [] {
+        GLint flags = 0;
+        glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
+        return (flags & GL_CONTEXT_FLAG_DEBUG_BIT) != 0;
+    };
+    for (const Backend backend : {Backend::OsMesa, Backend::Egl}) {
+        const auto context = createHeadlessContext(backend, {.debug = true});
+        CAPTURE(context->backend());
+        CHECK(glIsEnabled(GL_DEBUG_OUTPUT) == GL_TRUE);
+        CHECK(glIsEnabled(GL_DEBUG_OUTPUT_SYNCHRONOUS) == GL_TRUE);
+        CHECK(isDebugContext() == (backend == Backend::Egl)); // OSMesa makes none
+    }
+    const auto context = createHeadlessContext(Backend::Egl);
+    CHECK(glIsEnabled(GL_DEBUG_OUTPUT) == GL_TRUE);
+    CHECK((glIsEnabled(GL_DEBUG_OUTPUT_SYNCHRONOUS) == GL_TRUE) == isDebugContext());
+}
+
+TEST_CASE("messages from threads of the driver are all counted") {
+    testContext();
+    const ExpectGlMessages expected;
+    void* callback = nullptr;
+    glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &callback);
+    REQUIRE(callback);
+    constexpr int kThreads = 4, kEach = 20'000;
+    const int errors = glErrorCount();
+    const LogSink before = setLogSink({});
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < kThreads; ++i)
+            threads.emplace_back([callback] {
+                for (int j = 0; j < kEach; ++j)
+                    reinterpret_cast<GLDEBUGPROC>(callback)(
+                        GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_ERROR, 1, GL_DEBUG_SEVERITY_HIGH, -1,
+                        "from another thread", nullptr);
+            });
+    }
+    setLogSink(before);
+    CHECK(expected.count() == kThreads * kEach);
+    CHECK(glErrorCount() == errors + kThreads * kEach);
 }
 
 TEST_CASE("markers and groups of the program itself are not counted") {

@@ -40,7 +40,7 @@ Backend testBackend() {
 
 GlContext& testContext() {
     if (!fixture().context) {
-        fixture().context = createHeadlessContext(testBackend());
+        fixture().context = createHeadlessContext(testBackend(), {.debug = true});
         setStrictBindings(true);
     }
     return *fixture().context;
