@@ -4,10 +4,12 @@
 #include "app/commands/command_words.h"
 #include "app/commands/exchange_words.h"
 #include "app/commands/experiment_words.h"
+#include "app/commands/headless.h"
 #include "app/commands/list.h"
 #include "app/experiment/interrupt.h"
 #include "app/experiment/output.h"
 #include "renderer/base/error.h"
+#include "renderer/gl/errors.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -72,6 +74,7 @@ void refuseExtras(CLI::App& app) {
 
 int dispatch(CLI::App& app, const Words& words, const WindowFunctions& window) {
     const std::string command = chosen(app) ? chosen(app)->get_name() : "";
+    const int glErrors = glErrorCount();
     if (command == "render" && words.render.exports) {
         runExportCommand(words.render.parseExport(), window.hiddenContext);
     } else if (command == "render") {
@@ -100,6 +103,7 @@ int dispatch(CLI::App& app, const Words& words, const WindowFunctions& window) {
         throw UsageError("a command is missing: view, render, experiment, sweep, merge, report, "
                          "import-frames, bench or list; see afterglow --help");
     }
+    requireNoGlErrors(glErrors);
     return kDone;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/commands/arguments.h"
 #include "renderer/base/error.h"
+#include "renderer/gl/errors.h"
 
 #include <algorithm>
 #include <array>
@@ -51,6 +52,10 @@ Headless::Headless(ContextChoice choice, HiddenContextFactory hiddenContext)
     : context(makeContext(choice, hiddenContext)), gl(glInfo(*context)),
       shaders(makeShaderLibrary(gl)), renderer(shaders, gl) {}
 
+Headless::~Headless() {
+    sweepGlErrors();
+}
+
 void Headless::resize(glm::ivec2 size) {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -59,6 +64,15 @@ void Headless::resize(glm::ivec2 size) {
                          ": the largest image of this driver is " + std::to_string(largest) +
                          " pixels along a side");
     renderer.resize(size);
+}
+
+void requireNoGlErrors(int before) {
+    const int errors = glErrorCount() - before;
+    if (errors > 0)
+        throw Error("OpenGL failed " + std::to_string(errors) + (errors == 1 ? " time" : " times") +
+                    ", first with \"" + firstGlError() +
+                    "\": what was written may be wrong, and so may references that were kept; "
+                    "delete it");
 }
 
 } // namespace afterglow

@@ -29,6 +29,11 @@ using HiddenContextFactory = std::unique_ptr<GlContext> (*)();
 struct Headless {
     Headless(ContextChoice choice, HiddenContextFactory hiddenContext);
 
+    /// Sees to it that no error of OpenGL goes with the context unseen; see requireNoGlErrors().
+    ~Headless();
+    Headless(const Headless&) = delete;
+    Headless& operator=(const Headless&) = delete;
+
     /// Resizes; UsageError if this driver's textures cannot be that large.
     void resize(glm::ivec2 size);
 
@@ -37,5 +42,9 @@ struct Headless {
     ShaderLibrary shaders;
     Renderer renderer;
 };
+
+/// Throws Error if there was an error of OpenGL since there were `before` of them: what was written
+/// in the meantime may look whole and be wrong.
+void requireNoGlErrors(int before);
 
 } // namespace afterglow
