@@ -49,6 +49,7 @@ void runBench(const BenchOptions& options, HiddenContextFactory hiddenContext) {
     renderer.timer().setEnabled(true);
     std::printf("%s on %s (%s)\n", renderer.scene().name.c_str(), headless.gl.renderer.c_str(),
                 headless.gl.backend.c_str());
+    tellSoftwareRenderer(headless.gl);
 
     double work = 0.0;
     for (glm::ivec2 size : options.sizes)

@@ -127,6 +127,7 @@ void runAll(const std::vector<Experiment>& experiments, const ExperimentOptions&
                     options.out.c_str());
         return;
     }
+    tellSoftwareRenderer(headless.gl);
     for (const Experiment& experiment : experiments)
         printRun(experiment, isSuite ? out.path() / experiment.name : out.path());
     if (isSuite)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace afterglow {
 
@@ -64,6 +65,11 @@ void Headless::resize(glm::ivec2 size) {
                          ": the largest image of this driver is " + std::to_string(largest) +
                          " pixels along a side");
     renderer.resize(size);
+}
+
+void tellSoftwareRenderer(const GlInfo& gl) {
+    if (gl.softwareRasterizer)
+        std::printf("%s, a software renderer: times are of the CPU\n", gl.renderer.c_str());
 }
 
 void requireNoGlErrors(int before) {

@@ -43,6 +43,9 @@ struct Headless {
     Renderer renderer;
 };
 
+/// Prints a line about what drew, if that was the CPU.
+void tellSoftwareRenderer(const GlInfo& gl);
+
 /// Throws Error if there was an error of OpenGL since there were `before` of them: what was written
 /// in the meantime may look whole and be wrong.
 void requireNoGlErrors(int before);

@@ -183,6 +183,7 @@ void runRender(const RenderOptions& options, HiddenContextFactory hiddenContext)
         renderReference(options, headless, camera, folder);
     else
         renderFrames(options, headless, camera, folder);
+    tellSoftwareRenderer(headless.gl);
 }
 
 } // namespace afterglow

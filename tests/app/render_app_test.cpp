@@ -51,6 +51,7 @@ TEST_CASE("render writes a picture a frame, the AOVs asked for, and an account o
     CHECK(run.out.find("5 frames") != std::string::npos);
     CHECK(run.out.find("ms a frame") != std::string::npos);
     CHECK(run.out.find("rays/s") != std::string::npos);
+    CHECK(run.out.find("a software renderer: times are of the CPU\n") != std::string::npos);
     CHECK(run.out.find(out) != std::string::npos);
 
     std::vector<std::string> expected{"run.json"};
