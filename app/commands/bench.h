@@ -17,7 +17,7 @@ struct BenchOptions {
     Settings settings;
     int frames = 16; ///< of each filter at each size, the first three only warm up
     std::uint32_t seed = 0;
-    ContextChoice context = ContextChoice::Auto;
+    ContextWish context;
     std::optional<std::string> out; ///< a folder for bench.json
 };
 

@@ -57,8 +57,10 @@ void PictureWords::addSeed(CLI::App& app) {
     addOption(app, "--seed", seed, "S", "Of all random numbers, 0 to 4294967295 [0]");
 }
 
-void PictureWords::addContext(CLI::App& app) {
-    addOption(app, "--context", context, "NAME", "auto, osmesa, egl or glfw [auto]");
+void ContextWords::addTo(CLI::App& app) {
+    addOption(app, "--context", name, "NAME", "auto, osmesa, egl or glfw [auto]");
+    addOption(app, "--device", device, "N",
+              "One of EGL's devices; afterglow list contexts [the first GPU that works]");
 }
 
 Settings PictureWords::toSettings() const {
@@ -85,10 +87,6 @@ std::uint32_t PictureWords::toSeed() const {
     return seed ? std::uint32_t(parseWhole("--seed", *seed, 0, 0xffffffffll)) : 0;
 }
 
-ContextChoice PictureWords::toContext() const {
-    return context ? contextFromName(*context) : ContextChoice::Auto;
-}
-
 void RenderWords::addTo(CLI::App& app) {
     addOption(app, "SCENE", scene, "",
               "A name (afterglow list scenes), or a .gltf or .glb file; with --export also an "
@@ -102,7 +100,7 @@ void RenderWords::addTo(CLI::App& app) {
         addOption(app, "--frames,-n", picture.frames, "N", "Frames to render [32]");
     addOption(app, "--size", picture.size, "WxH", "Of the picture in pixels [640x360]");
     picture.addSeed(app);
-    picture.addContext(app);
+    picture.context.addTo(app);
     addOption(app, "--light", picture.lights, "NAME=STATE[@FRAME]",
               "Sets a light to on, off or a power (1 is the scene's own) from a frame on; again "
               "for more");
@@ -166,7 +164,7 @@ ExportOptions RenderWords::parseExport() const {
     if (aovs)
         options.aovs = parseList("--aov", *aovs);
     options.format = floatFormat(format) == "pfm" ? "pfm" : "exr";
-    options.context = picture.toContext();
+    options.context = picture.context.parse();
     options.out = *out;
     return options;
 }
@@ -181,7 +179,7 @@ RenderOptions RenderWords::parse() const {
     if (picture.frames)
         options.frames = int(parseWhole("--frames", *picture.frames, 1, kMostFrames));
     options.seed = picture.toSeed();
-    options.context = picture.toContext();
+    options.context = picture.context.parse();
     options.lights = picture.toLightChanges();
     if (aovs)
         options.aovs = parseList("--aov", *aovs);
@@ -260,7 +258,7 @@ void BenchWords::addTo(CLI::App& app) {
     addOption(app, "--frames,-n", picture.frames, "N",
               "Of each filter at each size; the first three are not counted [16]");
     picture.addSeed(app);
-    picture.addContext(app);
+    picture.context.addTo(app);
     addOption(app, "--out,-o", out, "DIR", "Also writes DIR/bench.json");
     app.footer("Prints medians of every pass and of the frame, and rays a second.\n\n"
                "Examples:\n"
@@ -286,7 +284,7 @@ BenchOptions BenchWords::parse() const {
     if (picture.frames)
         options.frames = int(parseWhole("--frames", *picture.frames, 4, kMostFrames));
     options.seed = picture.toSeed();
-    options.context = picture.toContext();
+    options.context = picture.context.parse();
     options.out = out;
     return options;
 }

@@ -27,20 +27,27 @@ extern const std::string kExitCodes;
 CLI::Option* addOption(CLI::App& app, const std::string& name, Text& text, const char* type,
                        const std::string& help);
 
+/// Where the commands without a window get their OpenGL from.
+struct ContextWords {
+    Text name, device;
+
+    void addTo(CLI::App& app);
+    ContextWish parse() const { return contextFrom(name, device); }
+};
+
 /// What render, view and bench say about the picture.
 struct PictureWords {
-    Text filter, signal, camera, size, seed, frames, context;
+    Text filter, signal, camera, size, seed, frames;
+    ContextWords context;
     Texts lights, settings;
 
     void addSettings(CLI::App& app);
     void addFilter(CLI::App& app);
     void addSeed(CLI::App& app);
-    void addContext(CLI::App& app);
 
     Settings toSettings() const;
     std::vector<LightChange> toLightChanges() const;
     std::uint32_t toSeed() const;
-    ContextChoice toContext() const;
 };
 
 struct RenderWords {

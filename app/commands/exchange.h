@@ -28,7 +28,7 @@ struct ExportOptions {
 
     std::vector<std::string> aovs; ///< beside those that every export has
     std::string format = "exr";    ///< or "pfm"
-    ContextChoice context = ContextChoice::Auto;
+    ContextWish context;
     std::string out;
 };
 
@@ -44,7 +44,7 @@ struct ImportOptions {
     bool only = false;                ///< without variants of ours
     std::optional<int> samples;       ///< of each reference, per pixel
     CacheOptions cache;
-    ContextChoice context = ContextChoice::Auto;
+    ContextWish context;
     std::string out;
 };
 

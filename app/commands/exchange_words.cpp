@@ -34,7 +34,7 @@ void ImportWords::addTo(CLI::App& app) {
     addOption(app, "--cache", cache, "DIR",
               "Where references are kept [$XDG_CACHE_HOME/afterglow/references]");
     app.add_flag("--no-cache", noCache, "Keep no references");
-    addOption(app, "--context", context, "NAME", "auto, osmesa, egl or glfw [auto]");
+    context.addTo(app);
     app.footer("Measures the frames of another denoiser as those of a filter: docs/denoisers.md.\n"
                "Another one that is imported into the same DIR stands beside the first.\n\n"
                "Examples:\n"
@@ -57,8 +57,7 @@ ImportOptions ImportWords::parse() const {
     if (samples)
         options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
     options.cache = parseCache(cache, noCache);
-    if (context)
-        options.context = contextFromName(*context);
+    options.context = context.parse();
     options.out = *out;
     return options;
 }

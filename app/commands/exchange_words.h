@@ -5,7 +5,8 @@
 namespace afterglow {
 
 struct ImportWords {
-    Text exported, frames, name, quantity, filters, samples, cache, context, out;
+    Text exported, frames, name, quantity, filters, samples, cache, out;
+    ContextWords context;
     bool only = false, noCache = false;
 
     void addTo(CLI::App& app);

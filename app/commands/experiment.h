@@ -32,7 +32,7 @@ struct ExperimentOptions {
 
     RunOptions run;
     CacheOptions cache;
-    ContextChoice context = ContextChoice::Auto;
+    ContextWish context;
     std::string out;
 };
 

@@ -44,7 +44,7 @@ void addCommon(CLI::App& app, ExperimentWords& words) {
     addOption(app, "--cache", words.cache, "DIR",
               "Where references are kept [$XDG_CACHE_HOME/afterglow/references]");
     app.add_flag("--no-cache", words.noCache, "Keep no references");
-    addOption(app, "--context", words.context, "NAME", "auto, osmesa, egl or glfw [auto]");
+    words.context.addTo(app);
 }
 
 } // namespace
@@ -103,8 +103,7 @@ ExperimentOptions ExperimentWords::parse() const {
     if (part)
         options.run.part = parsePart(*part);
     options.cache = parseCache(cache, noCache);
-    if (context)
-        options.context = contextFromName(*context);
+    options.context = context.parse();
     options.out = *out;
     return options;
 }

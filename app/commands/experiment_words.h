@@ -12,7 +12,8 @@ CacheOptions parseCache(const Text& folder, bool none);
 
 struct ExperimentWords {
     Texts experiments, settings;
-    Text size, frames, signal, samples, filters, part, cache, context, out;
+    Text size, frames, signal, samples, filters, part, cache, out;
+    ContextWords context;
     bool quick = false, fresh = false, noCache = false;
 
     void addTo(CLI::App& app);

@@ -21,11 +21,14 @@ constexpr std::array kContexts{
     ContextInfo{ContextChoice::Glfw, "glfw", "a window that is not shown; needs a display"},
 };
 
-std::unique_ptr<GlContext> makeContext(ContextChoice choice, HiddenContextFactory hiddenContext) {
-    switch (choice) {
-    case ContextChoice::Auto: return createHeadlessContext(Backend::Auto);
-    case ContextChoice::OsMesa: return createHeadlessContext(Backend::OsMesa);
-    case ContextChoice::Egl: return createHeadlessContext(Backend::Egl);
+constexpr int kMostDevices = 1000;
+
+std::unique_ptr<GlContext> makeContext(ContextWish wish, HiddenContextFactory hiddenContext) {
+    const ContextOptions options{.device = wish.device};
+    switch (wish.choice) {
+    case ContextChoice::Auto: return createHeadlessContext(Backend::Auto, options);
+    case ContextChoice::OsMesa: return createHeadlessContext(Backend::OsMesa, options);
+    case ContextChoice::Egl: return createHeadlessContext(Backend::Egl, options);
     case ContextChoice::Glfw: break;
     }
     if (!hiddenContext)
@@ -49,8 +52,27 @@ ContextChoice contextFromName(std::string_view name) {
     throw UsageError(unknownName("context", name, known));
 }
 
-Headless::Headless(ContextChoice choice, HiddenContextFactory hiddenContext)
-    : context(makeContext(choice, hiddenContext)), gl(glInfo(*context)),
+ContextWish contextFrom(const std::optional<std::string>& name,
+                        const std::optional<std::string>& device) {
+    ContextWish wish;
+    if (name)
+        wish.choice = contextFromName(*name);
+    if (!device)
+        return wish;
+    if (wish.choice != ContextChoice::Auto && wish.choice != ContextChoice::Egl)
+        throw UsageError("--device " + *device + ": only EGL has devices to choose from, so " +
+                         "--context " + *name + " excludes it");
+    wish.device = int(parseWhole("--device", *device, 0, kMostDevices));
+    const std::size_t count = eglDevices().size();
+    if (std::size_t(*wish.device) >= count)
+        throw UsageError("--device " + *device + ": EGL has " + std::to_string(count) +
+                         (count == 1 ? " device" : " devices") +
+                         ", counted from 0; see afterglow list contexts");
+    return wish;
+}
+
+Headless::Headless(ContextWish wish, HiddenContextFactory hiddenContext)
+    : context(makeContext(wish, hiddenContext)), gl(glInfo(*context)),
       shaders(makeShaderLibrary(gl)), renderer(shaders, gl) {}
 
 Headless::~Headless() {

@@ -4,7 +4,9 @@
 #include "renderer/pipeline/renderer.h"
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace afterglow {
@@ -21,13 +23,23 @@ std::span<const ContextInfo> contexts();
 
 ContextChoice contextFromName(std::string_view name); ///< UsageError names the nearest known
 
+struct ContextWish {
+    ContextChoice choice = ContextChoice::Auto;
+    std::optional<int> device = {}; ///< one of eglDevices(), for Auto and Egl
+};
+
+/// What --context and --device say, if they were given. UsageError where they do not go together,
+/// or where there is no such device.
+ContextWish contextFrom(const std::optional<std::string>& name,
+                        const std::optional<std::string>& device);
+
 /// Makes the context of a window that is not shown. Given from outside, so that nothing here sees
 /// the window.
 using HiddenContextFactory = std::unique_ptr<GlContext> (*)();
 
 /// A renderer with all it stands on, in the order in which it must live and die.
 struct Headless {
-    Headless(ContextChoice choice, HiddenContextFactory hiddenContext);
+    Headless(ContextWish wish, HiddenContextFactory hiddenContext);
 
     /// Sees to it that no error of OpenGL goes with the context unseen; see requireNoGlErrors().
     ~Headless();

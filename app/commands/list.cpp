@@ -84,6 +84,9 @@ std::vector<Line> contextLines() {
     std::vector<Line> lines;
     for (const ContextInfo& context : contexts())
         lines.push_back({std::string(context.name), std::string(context.meaning)});
+    const std::vector<std::string> devices = eglDevices();
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        lines.push_back({"device " + std::to_string(i), devices[i] + " [egl, auto]"});
     return lines;
 }
 

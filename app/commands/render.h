@@ -18,7 +18,7 @@ struct RenderOptions {
     std::uint32_t seed = 0;
     double rate = 60.0;   ///< frames a second of scene time
     bool animate = false; ///< the scene's own animation plays; otherwise time stands still at 0
-    ContextChoice context = ContextChoice::Auto;
+    ContextWish context;
     std::vector<LightChange> lights;
     std::vector<std::string> aovs;
     std::string format = "png"; ///< of AOVs: "pfm", else EXR; display images are always PNG

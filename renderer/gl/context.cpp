@@ -82,6 +82,8 @@ std::unique_ptr<GlContext> createHeadlessContext(Backend backend, ContextOptions
     case Backend::Egl: return createEglContext(options);
     case Backend::Auto: break;
     }
+    if (options.device)
+        return createEglContext(options);
     std::string eglError;
     try {
         return createEglContext(options);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glad/gl.h>
 
@@ -26,7 +28,13 @@ struct ContextOptions {
     /// Lets the driver check more, and report each message before the call returns that it is
     /// about. Always so in builds that take shaders from the source folder.
     bool debug = false;
+    /// Only this one of eglDevices(); not for OSMesa, which then is no way out either.
+    std::optional<int> device = {};
 };
+
+/// Returns what the devices of EGL tell of themselves without a context, in the order in which EGL
+/// has them; nothing where there is no EGL, or one that has none to choose from.
+std::vector<std::string> eglDevices();
 
 /// A context without a window. It has no default framebuffer that could be drawn into.
 /// Throws ContextError, one line that names the library or version that is missing.

@@ -53,40 +53,77 @@ bool hasWord(const char* list, std::string_view word) {
     return false;
 }
 
+struct Device {
+    EGLDeviceEXT handle;
+    bool isSoftware;
+    std::string description;
+};
+
+/// All that EGL can enumerate (NVIDIA's driver wants to be asked like this), in its own order.
+std::vector<Device> devicesOf(const Egl& egl) {
+    const char* client = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (!hasWord(client, "EGL_EXT_platform_base") || !hasWord(client, "EGL_EXT_platform_device") ||
+        (!hasWord(client, "EGL_EXT_device_enumeration") && !hasWord(client, "EGL_EXT_device_base")))
+        return {};
+    const auto queryDevices = egl.extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+    const auto deviceString =
+        egl.extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    std::array<EGLDeviceEXT, 16> handles{};
+    EGLint count = 0;
+    if (!queryDevices || !queryDevices(EGLint(handles.size()), handles.data(), &count))
+        return {};
+    std::vector<Device> devices;
+    for (EGLint i = 0; i < count; ++i) {
+        const EGLDeviceEXT handle = handles[std::size_t(i)];
+        const auto text = [&](EGLint name) {
+            const char* value = deviceString ? deviceString(handle, name) : nullptr;
+            return std::string(value ? value : "");
+        };
+        const std::string extensions = text(EGL_EXTENSIONS);
+        const auto textOf = [&](const char* extension, EGLint name) {
+            return hasWord(extensions.c_str(), extension) ? text(name) : "";
+        };
+        const bool isSoftware = hasWord(extensions.c_str(), "EGL_MESA_device_software");
+        std::string description;
+        for (const std::string& part : {textOf("EGL_EXT_device_query_name", EGL_RENDERER_EXT),
+                                        textOf("EGL_EXT_device_query_name", EGL_VENDOR),
+                                        textOf("EGL_EXT_device_drm", EGL_DRM_DEVICE_FILE_EXT),
+                                        std::string(isSoftware ? "Mesa's software renderer" : "")})
+            if (!part.empty())
+                description += (description.empty() ? "" : ", ") + part;
+        devices.push_back(
+            {handle, isSoftware, description.empty() ? "tells nothing of itself" : description});
+    }
+    return devices;
+}
+
 struct Candidate {
     std::string name;
     EGLDisplay display;
 };
 
-/// Displays that need no window system, best first: the GPUs that EGL can enumerate (NVIDIA's
-/// driver wants to be asked like this), Mesa without a surface, Mesa's software device.
-std::vector<Candidate> candidates(const Egl& egl) {
+/// Displays that need no window system, best first: GPUs, Mesa without a surface, Mesa's software
+/// device. Only the one of `device` if that is given.
+std::vector<Candidate> candidates(const Egl& egl, std::optional<int> device) {
     const char* client = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =
         egl.extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    const std::vector<Device> devices = platformDisplay ? devicesOf(egl) : std::vector<Device>{};
+    const auto candidate = [&](std::size_t i) {
+        return Candidate{"device " + std::to_string(i),
+                         platformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i].handle, nullptr)};
+    };
+    if (device) {
+        if (*device < 0 || std::size_t(*device) >= devices.size())
+            throw ContextError("libEGL.so.1 has no device " + std::to_string(*device));
+        return {candidate(std::size_t(*device))};
+    }
     if (!platformDisplay || !hasWord(client, "EGL_EXT_platform_base"))
         return {{"default display", egl.getDisplay(EGL_DEFAULT_DISPLAY)}};
 
-    std::vector<Candidate> gpus, software;
-    if (hasWord(client, "EGL_EXT_platform_device") &&
-        (hasWord(client, "EGL_EXT_device_enumeration") || hasWord(client, "EGL_EXT_device_base"))) {
-        const auto queryDevices = egl.extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-        const auto deviceString =
-            egl.extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-        std::array<EGLDeviceEXT, 16> devices{};
-        EGLint count = 0;
-        if (queryDevices && queryDevices(EGLint(devices.size()), devices.data(), &count))
-            for (EGLint i = 0; i < count; ++i) {
-                const EGLDeviceEXT device = devices[std::size_t(i)];
-                const bool isSoftware =
-                    deviceString &&
-                    hasWord(deviceString(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
-                (isSoftware ? software : gpus)
-                    .push_back({"device " + std::to_string(i),
-                                platformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr)});
-            }
-    }
-    std::vector<Candidate> all = std::move(gpus);
+    std::vector<Candidate> all, software;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        (devices[i].isSoftware ? software : all).push_back(candidate(i));
     if (hasWord(client, "EGL_MESA_platform_surfaceless"))
         all.push_back({"surfaceless platform",
                        platformDisplay(EGL_PLATFORM_SURFACELESS_MESA,
@@ -169,10 +206,20 @@ private:
 
 } // namespace
 
+std::vector<std::string> eglDevices() {
+    std::vector<std::string> descriptions;
+    try {
+        for (const Device& device : devicesOf(Egl()))
+            descriptions.push_back(device.description);
+    } catch (const ContextError&) { // no EGL: no devices
+    }
+    return descriptions;
+}
+
 std::unique_ptr<GlContext> createEglContext(const ContextOptions& options) {
     const Egl egl;
     std::string failures;
-    for (const auto& [name, display] : candidates(egl)) {
+    for (const auto& [name, display] : candidates(egl, options.device)) {
         try {
             return std::make_unique<EglContext>(egl, display, options);
         } catch (const ContextError& error) {

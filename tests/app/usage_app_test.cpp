@@ -133,6 +133,41 @@ TEST_CASE("a context that cannot be had is exit code 4") {
     CHECK(filesIn(folder / "out").empty());
 }
 
+TEST_CASE("a device of EGL is chosen by its number in the list; any other is refused") {
+    const Run list = afterglow({"list", "contexts"});
+    CHECK(list.exitCode == 0);
+    CHECK(list.out.find("\ndevice 0  ") != std::string::npos); // Mesa's own, where there is no GPU
+    int count = 0;
+    while (list.out.find("\ndevice " + std::to_string(count) + "  ") != std::string::npos)
+        ++count;
+    const std::string all = "EGL has " + std::to_string(count) + " device";
+    const TemporaryFolder folder;
+    const std::string out = folder / "out";
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"render", "tiny", "--out", out},
+          {"experiment", "static", "--out", out},
+          {"sweep", "static", "--over", "alpha=0.1", "--out", out},
+          {"import-frames", "a", "b", "--name", "c", "--out", out},
+          {"bench", "tiny"}}) {
+        const auto with = [&](const std::vector<std::string>& words) {
+            std::vector<std::string> line = command;
+            line.insert(line.end(), words.begin(), words.end());
+            return line;
+        };
+        checkRefused(with({"--device", std::to_string(count)}), 2, {all, "list contexts"});
+        checkRefused(with({"--device", "-1", "--context", "egl"}), 2, {"--device", "'-1'"});
+        checkRefused(with({"--device", "0", "--context", "osmesa"}), 2, {"--device 0", "osmesa"});
+    }
+    for (const char* context : {"egl", "auto"}) {
+        const Run run = afterglow({"render", "tiny", "--size", "8x8", "--frames", "1", "--context",
+                                   context, "--device", "0", "--out", out});
+        CAPTURE(run.err);
+        CHECK(run.exitCode == 0);
+        CHECK(bytesOf(out + "/run.json").find("\"EGL\"") != std::string::npos);
+    }
+    CHECK(filesIn(out).size() == 2);
+}
+
 TEST_CASE("lists tell names and meanings") {
     const std::map<std::string, std::vector<std::string>> expected{
         {"scenes", {"hall", "cornell", "tiny"}},

@@ -159,6 +159,17 @@ TEST_CASE("messages from threads of the driver are all counted") {
     CHECK(glErrorCount() == errors + kThreads * kEach);
 }
 
+TEST_CASE("a context is made on the device of EGL that was chosen, and on no other") {
+    releaseTestContext();
+    const int count = int(eglDevices().size());
+    REQUIRE(count > 0);
+    for (const Backend backend : {Backend::Egl, Backend::Auto}) {
+        CHECK(createHeadlessContext(backend, {.device = 0})->backend() == "EGL");
+        CHECK(contextErrorOf([&] { createHeadlessContext(backend, {.device = count}); }) ==
+              "libEGL.so.1 has no device " + std::to_string(count));
+    }
+}
+
 TEST_CASE("markers and groups of the program itself are not counted") {
     testContext();
     const LogCapture log;
