@@ -42,7 +42,7 @@ void Renderer::resize(glm::ivec2 size) {
         return;
     // Before the new ones are made: both may be too much.
     impl_->targets = {};
-    impl_->requireMemoryFor(size, 1);
+    impl_->requireMemoryFor(size, Impl::Needed::FrameAndFilter);
     impl_->targets = RenderTargets(size);
     impl_->states = {};
     impl_->converging.reset();
@@ -57,20 +57,21 @@ void Renderer::resetHistory() {
     impl_->frame.forget();
 }
 
-// What a filter or a signal more takes is a part of that; a few megabytes are nobody's concern.
-void Renderer::Impl::requireMemoryFor(glm::ivec2 size, std::size_t filters) const {
-    constexpr std::size_t kSmall = std::size_t(64) << 20;
+// Small pictures are nobody's concern: with four filters and two signals a pixel takes 2 kB.
+void Renderer::Impl::requireMemoryFor(glm::ivec2 size, Needed what) const {
+    constexpr double kSmallPixels = double(1 << 16);
     const double pixels = double(size.x) * double(size.y);
+    if (pixels <= kSmallPixels)
+        return;
     const ImageBytes perPixel = imageBytes(familyOf(Filter::Svgf).images);
     const double count = double(signals.size());
-    const auto bytes = std::size_t(pixels * (perPixel.frame + count * perPixel.signal +
-                                             double(filters) * count * perPixel.filter));
-    if (bytes > kSmall)
-        requireMemory(bytes,
-                      "images of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                          " pixels (" + std::to_string(std::size_t(double(bytes) / pixels)) +
-                          " bytes a pixel)",
-                      software);
+    double needed = count * perPixel.filter;
+    if (what == Needed::FrameAndFilter)
+        needed += perPixel.frame + count * perPixel.signal;
+    requireMemory(std::size_t(pixels * needed),
+                  "images of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                      " pixels (" + std::to_string(std::lround(needed)) + " bytes a pixel)",
+                  software);
 }
 
 RanFilter Renderer::Impl::ranFilterOf(const FilterSettings& settings) {
@@ -135,7 +136,7 @@ void Renderer::Impl::startStates(std::span<const FilterRun> runs) {
 void Renderer::Impl::startState(std::size_t state, const FilterFamily& family) {
     FilterTargets& own = targets.filters[state];
     if (own.empty()) {
-        requireMemoryFor(targets.size, 1);
+        requireMemoryFor(targets.size, Needed::Filter);
         own = FilterTargets(targets.size);
     }
     const auto isOfFamily = [&](std::size_t other) {

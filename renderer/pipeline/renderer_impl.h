@@ -29,7 +29,8 @@ struct Renderer::Impl {
             throw std::logic_error("Renderer: setScene() and resize() come before a frame");
     }
     FrameContext context() { return {.timer = timer, .uniforms = &frame.block()}; }
-    void requireMemoryFor(glm::ivec2 size, std::size_t filters) const;
+    enum class Needed { FrameAndFilter, Filter };
+    void requireMemoryFor(glm::ivec2 size, Needed what) const;
     static RanFilter ranFilterOf(const FilterSettings& settings);
     SignalFilter& programsOf(const FilterFamily& family);
     void begin(const FrameInput& input, const FrameSettings& settings);

@@ -149,7 +149,7 @@ const std::array kFields = std::to_array<Field>({
 
     {"lighting", "signal", "Signal",
      "Which rays are traced, and whether they are filtered as one signal or each by itself.",
-     "", kAsvgf, 0.0, 3.0, false, signalNames(), AFTERGLOW_FRAME_FIELD(lighting.signal)},
+     "", kAsvgf, 0.0, double(signalNames().size() - 1), false, signalNames(), AFTERGLOW_FRAME_FIELD(lighting.signal)},
     {"lighting", "aoRadius", "Occlusion radius",
      "Length of the ambient occlusion rays.",
      "of the scene's extent", "own choice", 0.001, 1.0, true, {},
