@@ -52,7 +52,7 @@ void Instruments::measure(Renderer& renderer, const ViewState& state, std::uint3
 
 void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std::size_t pane) {
     const RenderTargets& t = renderer.targets();
-    const SvgfPlan& plan = *renderer.ran(pane)->svgf;
+    const SvgfPlan plan = renderer.ran(pane)->planOrNone();
     const std::size_t signal = shownSignal(state);
     FrameContext context{renderer.timer()};
     for (std::size_t i = 0; i < kProbes; ++i) {
@@ -74,7 +74,7 @@ void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std:
 
 void Instruments::countReasons(Renderer& renderer, const ViewState& state, std::size_t pane) {
     const RenderTargets& t = renderer.targets();
-    const SvgfPlan& plan = *renderer.ran(pane)->svgf;
+    const SvgfPlan plan = renderer.ran(pane)->planOrNone();
     const std::size_t signal = shownSignal(state);
     FrameContext context{renderer.timer()};
     reasons_.run(context, {controlOf(renderer, pane, signal), t.surfaces.guides,

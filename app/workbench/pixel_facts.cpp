@@ -263,9 +263,9 @@ void PixelQuery::ask(Renderer& renderer, std::size_t state, const FrameSettings&
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= t.size.x || pixel.y >= t.size.y)
         throw std::logic_error("the inspector looks at pixels of the picture only");
     const RanFilter* const ran = renderer.ran(state);
-    if (!ran || !ran->svgf)
+    if (!ran)
         throw std::logic_error("the inspector looks at filters that there are only");
-    const SvgfPlan& plan = *ran->svgf;
+    const SvgfPlan plan = ran->planOrNone();
     const Surfaces& seen = t.surfaces;
     const SignalTargets& noisy = t.signals.at(signal);
     const ImageSet& own = t.filters[state].own.at(signal);

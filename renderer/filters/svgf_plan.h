@@ -13,17 +13,17 @@ struct SvgfPlan {
     bool useLambda = false;      ///< lambda per pixel, from the gradient of those samples
     bool usePercentiles = false; ///< lambda per pixel, from percentiles of the raw luminance
 
-    gpu::TemporalParams temporal;
-    gpu::PercentileParams percentiles;
+    gpu::TemporalParams temporal{};
+    gpu::PercentileParams percentiles{};
 
-    gpu::GradientParams gradient;
-    gpu::EdgeStopping gradientEdges;             ///< but for the step, which gradientStep() gives
+    gpu::GradientParams gradient{};
+    gpu::EdgeStopping gradientEdges{};           ///< but for the step, which gradientStep() gives
     int gradientIterations = 0;                  ///< of the reconstruction of the gradient
     Kernel gradientKernel = Kernel::B3Spline5x5; ///< of each of them
     bool gradientStridesLinear = false;          ///< steps of 1, 2, 3, ... instead of 1, 2, 4, ...
 
-    gpu::VarianceParams variance;
-    gpu::EdgeStopping edges;             ///< of the spatial filter; the steps are 1, 2, 4, ...
+    gpu::VarianceParams variance{};
+    gpu::EdgeStopping edges{};           ///< of the spatial filter; the steps are 1, 2, 4, ...
     int atrousIterations = 0;            ///< of the spatial filter, guided by variance; 0: none
     Kernel kernel = Kernel::B3Spline5x5; ///< of each of them
     int feedbackIteration = 0; ///< whose result becomes the history; 0: the unfiltered blend

@@ -47,6 +47,9 @@ struct RanFilter {
     FilterSettings settings;
     FilterNeeds needs;
     std::optional<SvgfPlan> svgf; ///< of a filter of that family
+
+    /// Its plan; of other families one that does nothing, but for the samples that it carries.
+    SvgfPlan planOrNone() const { return svgf ? *svgf : SvgfPlan{.carrySamples = needs.samples}; }
 };
 
 /// What a frame leaves for the next one: all histories, as textures of its own.
