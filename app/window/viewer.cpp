@@ -195,7 +195,7 @@ void Viewer::drawWindow(glm::ivec2 framebuffer, const Layout& layout) {
 void Viewer::rememberWindow() {
     if (!window_.isMinimized())
         workbench_.state.preferences.windowSize =
-            glm::clamp(window_.size(), glm::ivec2(kLeastWindow), glm::ivec2(kMostWindow));
+            glm::clamp(window_.sizeInUnits(), glm::ivec2(kLeastWindow), glm::ivec2(kMostWindow));
 }
 
 void Viewer::tellTitle() {

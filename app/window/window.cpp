@@ -81,6 +81,7 @@ Window::Window(const Options& options) {
     glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE); // options.size is in units, not in pixels
     window_.reset(
         glfwCreateWindow(options.size.x, options.size.y, options.title.c_str(), nullptr, nullptr));
     if (!window_)
@@ -182,6 +183,10 @@ glm::ivec2 Window::size() const {
     glm::ivec2 size{0};
     glfwGetWindowSize(window_.get(), &size.x, &size.y);
     return size;
+}
+
+glm::ivec2 Window::sizeInUnits() const {
+    return glm::ivec2(glm::round(glm::vec2(framebufferSize()) / contentScale()));
 }
 
 glm::vec2 Window::inPixels(glm::vec2 screen) const {

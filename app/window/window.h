@@ -51,8 +51,9 @@ public:
     bool isMinimized() const;
     glm::ivec2 framebufferSize() const; ///< pixels; 0 while minimized on some systems
     float contentScale() const;         ///< of the monitor: 2 where letters need twice the pixels
-    glm::ivec2 size() const;            ///< screen coordinates
-    glm::vec2 cursor() const;           ///< framebuffer pixels
+    glm::ivec2 sizeInUnits() const; ///< pixels of a monitor of scale 1: what Options::size asks for
+    glm::ivec2 size() const;        ///< screen coordinates
+    glm::vec2 cursor() const;       ///< framebuffer pixels
     void setTitle(const std::string& title);
     void waitForScreen(bool waits); ///< whether swap() waits until the screen has shown a frame
     std::string clipboard() const;  ///< empty if there is no text in it
