@@ -4,6 +4,7 @@
 #include "renderer/gl/texture_array.h"
 #include "tests/support/gl_fixture.h"
 
+#include <latch>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -100,12 +101,14 @@ TEST_CASE("an allocation that fails for want of anything but memory is counted a
 }
 
 TEST_CASE("errors that threads note at one time are all counted") {
-    constexpr int kThreads = 4, kEach = 200'000;
+    constexpr int kThreads = 2, kEach = 1'000'000;
     const int before = glErrorCount();
     {
+        std::latch start(kThreads);
         std::vector<std::jthread> threads;
         for (int i = 0; i < kThreads; ++i)
-            threads.emplace_back([] {
+            threads.emplace_back([&start] {
+                start.arrive_and_wait();
                 for (int j = 0; j < kEach; ++j)
                     noteReportedGlError("from another thread");
             });
