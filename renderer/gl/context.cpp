@@ -46,13 +46,12 @@ void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum, GLsizei
     const LogLevel level = levelOf(source, type, id);
     if (level != LogLevel::Debug)
         ++messageCount;
-    std::string message = "OpenGL: ";
-    message.append(text, length >= 0 ? std::size_t(length) : std::string_view(text).size());
+    std::string message(text, length >= 0 ? std::size_t(length) : std::string_view(text).size());
     while (message.ends_with('\n') || message.ends_with(' '))
         message.pop_back();
     if (level == LogLevel::Error && type == GL_DEBUG_TYPE_ERROR)
         noteReportedGlError(message);
-    log(level, message);
+    log(level, "OpenGL: " + message);
 }
 
 std::string text(GLenum name) {

@@ -1,5 +1,6 @@
 #include "app/commands/command_line.h"
 #include "program.h"
+#include "renderer/base/error.h"
 #include "renderer/gl/errors.h"
 #include "tests/support/gl_fixture.h"
 
@@ -28,6 +29,19 @@ std::unique_ptr<GlContext> silentContext() {
     return context;
 }
 
+void finishBadly() {
+    glEnable(GL_TEXTURE_2D);
+}
+
+/// One that reports nothing, and in which each glFinish() fails: also the last, after which no
+/// storage is made.
+std::unique_ptr<GlContext> lateContext() {
+    auto context = soundContext();
+    glDisable(GL_DEBUG_OUTPUT);
+    glFinish = finishBadly; // the next context loads its own
+    return context;
+}
+
 int runIn(HiddenContextFactory context, std::vector<const char*> words) {
     words.insert(words.begin(), "afterglow");
     words.insert(words.end(), {"--context", "glfw"}); // the one that is handed in
@@ -46,7 +60,7 @@ TEST_CASE("any error of OpenGL ends a command with exit code 1, reported or not"
         {"render", "light-off", "--export", "--size", "16x9", "--frames", "1", "--out",
          noise.c_str()},
         {"bench", "tiny", "--size", "16x9", "--frames", "4", "--filter", "none"},
-        {"experiment", "static", "--size", "16x9", "--frames", "1", "--spp", "8", "--no-cache",
+        {"experiment", "static", "--size", "16x9", "--frames", "1", "--spp", "8", "--no-cache", "--fresh",
          "--filter", "fixed", "--out", score.c_str()}};
     for (const auto& command : commands) {
         CAPTURE(command.front());
@@ -55,8 +69,16 @@ TEST_CASE("any error of OpenGL ends a command with exit code 1, reported or not"
             CHECK(runIn(context, command) == 1);
             CHECK(glErrorCount() == before + 1);
         }
+        CHECK(runIn(lateContext, command) == 1);
         CHECK(runIn(soundContext, command) == 0); // what went wrong before is no fault of its own
     }
+}
+
+TEST_CASE("a context is asked for on the device that was chosen") {
+    releaseTestContext();
+    for (const ContextChoice choice : {ContextChoice::Egl, ContextChoice::Auto})
+        CHECK_THROWS_WITH_AS(Headless({choice, 999}, nullptr), "libEGL.so.1 has no device 999",
+                             ContextError);
 }
 
 } // namespace afterglow::test
