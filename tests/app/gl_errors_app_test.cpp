@@ -60,8 +60,8 @@ TEST_CASE("any error of OpenGL ends a command with exit code 1, reported or not"
         {"render", "light-off", "--export", "--size", "16x9", "--frames", "1", "--out",
          noise.c_str()},
         {"bench", "tiny", "--size", "16x9", "--frames", "4", "--filter", "none"},
-        {"experiment", "static", "--size", "16x9", "--frames", "1", "--spp", "8", "--no-cache", "--fresh",
-         "--filter", "fixed", "--out", score.c_str()}};
+        {"experiment", "static", "--size", "16x9", "--frames", "1", "--spp", "8", "--no-cache",
+         "--fresh", "--filter", "fixed", "--out", score.c_str()}};
     for (const auto& command : commands) {
         CAPTURE(command.front());
         for (const HiddenContextFactory context : {reportingContext, silentContext}) {
