@@ -102,6 +102,16 @@ def option_table():
     return table(head + ["RMSE", "flicker", "false"], rows)
 
 
+def signal_table():
+    rows = []
+    for name in ["light-off", "light-dim", "fill-light", "sparse-light"]:
+        for i, signal in enumerate(["both", "separate"]):
+            for variant, s in variants(f"signals/{signal}/{name}").items():
+                rows.append([f"`{name}`" if i == 0 and variant == "svgf" else "", signal, variant, frames(s, "lag_t90"), fixed(s["lag_frames"]),
+                             number(s["rmse_settled"]), number(s["flip_settled"]), number(s["flicker"], 2)])
+    return table(["experiment", "signal", "filter", "lag t90", "lag frames", "RMSE", "FLIP", "flicker"], rows)
+
+
 def sweep_table():
     points = {}
     for s in variants("sweep").values():
@@ -118,7 +128,7 @@ text = pathlib.Path(__file__).with_name("results_text.md").read_text()
 for key, value in {
     "commit": run["commit"], "cpu": run["machine"]["cpu"], "threads": str(run["machine"]["threads"]), "os": run["machine"]["os"],
     "gl": run["gl"]["renderer"] + ", " + run["gl"]["version"], "residual": number(residual, 2),
-    "suite": suite_table(), "lambda": lambda_table(), "competitors": competitor_table(), "moving": moving_table(), "options": option_table(), "sweep": sweep_table(),
+    "suite": suite_table(), "lambda": lambda_table(), "competitors": competitor_table(), "moving": moving_table(), "options": option_table(), "signals": signal_table(), "sweep": sweep_table(),
 }.items():
     text = text.replace("{{" + key + "}}", value)
 assert "{{" not in text, "a table is missing: " + text[text.index("{{"):][:40]

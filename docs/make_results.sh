@@ -16,6 +16,9 @@ run experiment light-off light-on light-dim fill-light light-color sparse-light 
 run experiment fill-light light-dim light-on \
     --filter asvgf,asvgf:lambdaFetch=nearest,asvgf:lambdaFetch=bilinear,asvgf:gradientKernel=b3-5x5,asvgf:gradientIterations=3,asvgf:historyLaw=frames,asvgf:historyLaw=effective,asvgf:alphaMoments=0.1,asvgf:alphaMoments=0.6,asvgf:feedbackIteration=0,asvgf:atrousIterations=3 \
     --out "$folder/options"
+for signal in both separate; do
+    run experiment light-off light-dim fill-light sparse-light --signal $signal --filter svgf,asvgf --out "$folder/signals/$signal"
+done
 run sweep fill-light --over alpha=0.05,0.1,0.2,0.4,0.8 --filter fixed,svgf,asvgf,percentile --out "$folder/sweep"
 
 /usr/bin/python3 docs/make_results.py "$folder" >docs/results.md
