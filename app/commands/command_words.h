@@ -27,7 +27,7 @@ extern const std::string kExitCodes;
 CLI::Option* addOption(CLI::App& app, const std::string& name, Text& text, const char* type,
                        const std::string& help);
 
-/// Where the commands without a window get their OpenGL from.
+/// The context and the device of EGL that a command without a window asks for.
 struct ContextWords {
     Text name, device;
 

@@ -28,8 +28,8 @@ struct ContextWish {
     std::optional<int> device = {}; ///< one of eglDevices(), for Auto and Egl
 };
 
-/// What --context and --device say, if they were given. UsageError where they do not go together,
-/// or where there is no such device.
+/// Returns the context that --context and --device ask for. UsageError where they do not go
+/// together, or where there is no such device.
 ContextWish contextFrom(const std::optional<std::string>& name,
                         const std::optional<std::string>& device);
 

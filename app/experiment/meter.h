@@ -8,7 +8,8 @@
 
 namespace afterglow {
 
-/// How a filter blended one signal. Empty where it has none:
+/// The weights and the history of one signal in one frame. An image that the filter does not make
+/// is empty.
 struct ControlImages {
     Image<float> lambda;  ///< per stratum
     Image<float> alpha;   ///< alpha' per pixel
@@ -16,7 +17,7 @@ struct ControlImages {
     Mask hasHistory{};
 };
 
-/// What a filter made of one frame.
+/// The result of a filter for one frame.
 struct FrameImages {
     Image<glm::vec4> lit; ///< sum of filtered signals times albedo
     Image<glm::u8vec4> display;

@@ -22,9 +22,9 @@ constexpr std::uint32_t referenceSeed(std::uint32_t seed) {
     return seed ^ 0x9e3779b9u;
 }
 
-/// How many samples of a reference the device is given at a time. Drivers end programs that keep a
-/// device busy for seconds, and waiting for it after every sample would take longer than the
-/// samples: the first portion is one sample, and what portions take sets how long the next one is.
+/// The portions in which the samples of a reference are traced. Drivers end programs that keep a
+/// device busy for seconds; waiting after every sample would take longer than the samples. The
+/// first portion is one sample, and the time of each portion sets the length of the next one.
 class SamplePortions {
 public:
     static constexpr double kMilliseconds = 50.0; ///< that a portion is to take

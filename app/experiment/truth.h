@@ -6,7 +6,7 @@
 
 namespace afterglow {
 
-/// What is true of one signal in one moment.
+/// The reference of one signal in one moment, and the ideal lambda that follows from it.
 struct SignalTruth {
     Image<float> luminance; ///< of the converged signal, as the filter sees it
     Image<float> variance;  ///< of the luminance of one sample
@@ -16,7 +16,7 @@ struct SignalTruth {
     Image<float> idealLambda; ///< of the first; the later ones have 0
 };
 
-/// What the frames of one moment are compared with.
+/// The reference that the frames of one moment are compared with.
 struct Truth {
     Image<glm::vec4> lit; ///< sum of converged signals times albedo, linear rgb
     Image<glm::u8vec4> display;

@@ -66,7 +66,7 @@ void chooseImage(const PanelContext& panel) {
     tooltip("V and Shift V go through them, B returns to the picture. Names as in render --aov.");
 }
 
-// Where the light is filtered in parts: the part whose images are shown.
+// Chooses the signal whose images are shown, where a frame has several.
 void chooseSignal(ViewState& state) {
     const auto signals = signalsOf(state);
     if (signals.size() < 2)
@@ -78,7 +78,7 @@ void chooseSignal(ViewState& state) {
     for (const std::string& name : names)
         texts.push_back(name.c_str());
     rowLabel("Signal");
-    if (const auto chosen = segments("signal", texts, int(shownSignal(state))))
+    if (const auto chosen = segments("signal", texts, int(shownSignal(state, signals.size()))))
         state.signal = std::size_t(*chosen);
     tooltip("Whose images are shown, and whose lambda, alpha and history the probes and the "
             "inspector read. The picture is of all.");

@@ -53,7 +53,7 @@ void Instruments::measure(Renderer& renderer, const ViewState& state, std::uint3
 void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std::size_t pane) {
     const RenderTargets& t = renderer.targets();
     const SvgfPlan plan = renderer.ran(pane)->planOrNone();
-    const std::size_t signal = shownSignal(state);
+    const std::size_t signal = shownSignal(state, renderer.signals().size());
     FrameContext context{renderer.timer()};
     for (std::size_t i = 0; i < kProbes; ++i) {
         if (!frame_->probes[i])
@@ -75,7 +75,7 @@ void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std:
 void Instruments::countReasons(Renderer& renderer, const ViewState& state, std::size_t pane) {
     const RenderTargets& t = renderer.targets();
     const SvgfPlan plan = renderer.ran(pane)->planOrNone();
-    const std::size_t signal = shownSignal(state);
+    const std::size_t signal = shownSignal(state, renderer.signals().size());
     FrameContext context{renderer.timer()};
     reasons_.run(context, {controlOf(renderer, pane, signal), t.surfaces.guides,
                            carriesSamples(state.panes) ? &t.samples : nullptr});

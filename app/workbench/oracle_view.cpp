@@ -27,7 +27,7 @@ Image<float> difference(const Image<float>& a, const Image<float>& b, const Mask
     return result;
 }
 
-/// What a filter left of the frozen frame, and what has been made of it.
+/// The result of one filter for the frozen frame, and the images made from it.
 struct FrozenFilter {
     FrameImages images;
     float deltaFloor = 0.0f;
@@ -36,7 +36,7 @@ struct FrozenFilter {
     std::array<std::array<GpuTexture, kOracleImages>, kMaxSignals> textures;
 };
 
-/// What has converged of one signal.
+/// The references of one signal: of the frozen frame and of the frame before.
 struct FrozenSignal {
     Image<float> now, before, variance;
 };

@@ -50,7 +50,7 @@ std::vector<std::size_t> shownPanes(const Panes& panes);
 bool isShown(const Panes& panes, std::size_t pane);
 /// All that a pane's picture is made with.
 Settings settingsOf(const Panes& panes, std::size_t pane);
-/// Whether a frame of those that are shown has gradient samples.
+/// Returns whether one of the shown panes makes frames carry gradient samples.
 bool carriesSamples(const Panes& panes);
 std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after);
 

@@ -57,9 +57,8 @@ std::size_t indexOf(std::string_view aov) {
     return std::size_t(std::ranges::find(all, aov, &AovInfo::name) - all.begin());
 }
 
-/// The signal that is looked at, in the frame that is there: the next one may have others.
 std::size_t signalIn(const Pictures::Sources& from) {
-    return std::min(from.state.signal, from.renderer.signals().size() - 1);
+    return shownSignal(from.state, from.renderer.signals().size());
 }
 
 bool same(const DebugViewParams& a, const DebugViewParams& b) {

@@ -55,7 +55,7 @@ private:
     Choice aovChoice(const Sources& from, std::size_t pane) const;
     Choice passChoice(const Sources& from) const;
     Choice oracleChoice(const Sources& from, std::size_t pane) const;
-    /// What is subtracted in a difference, and how that is shown.
+    /// The two images of a difference, and how the result is shown.
     struct Subtraction {
         Choice shown;
         const GpuTexture *first = nullptr, *second = nullptr;

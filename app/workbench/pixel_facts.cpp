@@ -68,7 +68,7 @@ Box tileBox(glm::ivec2 pixel, glm::ivec2 size) {
     return {glm::clamp(first, glm::ivec2(0), last), glm::clamp(first + 1, glm::ivec2(0), last) + 1};
 }
 
-/// What a readback has brought, put together.
+/// Assembles the facts of a pixel from a finished readback.
 class Answer {
 public:
     Answer(PixelFacts known, glm::ivec2 size, glm::ivec2 strata, const PixelQuery::Regions& at,

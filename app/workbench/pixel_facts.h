@@ -105,7 +105,7 @@ public:
              std::size_t signal, PixelReadback& readback);
     PixelFacts answer(const PixelReadback& readback) const; ///< what was asked last
 
-    /// Where what is asked for will be. What the filter does not make is left out.
+    /// The places of the pixels in the readback; empty for images that the filter does not make.
     struct Regions {
         template <class Pixel>
         using Region = PixelReadback::Region<Pixel>;

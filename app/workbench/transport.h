@@ -93,7 +93,7 @@ struct Transport {
 /// Whether a frame is to be rendered now. The very first one always, so that there is something to
 /// see; one that is stepped to at once, whatever the limit.
 bool wantsFrame(const Transport& t, double secondsSinceLastFrame);
-/// How long until then, if nothing else happens: 0, or infinity where nothing is to be rendered.
+/// Returns the seconds until the next frame is due: 0 at least, infinity where none is wanted.
 double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame);
 
 /// What the next frame is given: `live`, with the transport's time, or what the played take says.

@@ -321,8 +321,8 @@ std::span<const SignalInfo> signalsOf(const ViewState& state) {
     return signalsOf(Signal(state.panes.frame.lighting.signal));
 }
 
-std::size_t shownSignal(const ViewState& state) {
-    return std::min(state.signal, signalsOf(state).size() - 1);
+std::size_t shownSignal(const ViewState& state, std::size_t signals) {
+    return std::min(state.signal, signals - 1);
 }
 
 std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane) {

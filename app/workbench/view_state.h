@@ -175,9 +175,11 @@ void follow(ViewState& state, const FrameMoment& moment);
 /// In every round of the loop, rendered or not.
 void passTime(ViewState& state, double wallSeconds);
 
-/// The signals that frames are divided into, and the one that is looked at.
+/// The signals of the next frame.
 std::span<const SignalInfo> signalsOf(const ViewState& state);
-std::size_t shownSignal(const ViewState& state);
+/// The signal that is looked at in a frame with so many: the last frame may have other ones than
+/// the next.
+std::size_t shownSignal(const ViewState& state, std::size_t signals);
 
 /// The AOV that a pane shows, unless its filter does not make it.
 std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane);

@@ -43,7 +43,7 @@ bool Workbench::advance(double wallSeconds, glm::ivec2 view) {
         self.collect();
     self.inspectPixel(renders);
     self.instruments.submit();
-    // What a frame was found to be comes in with the next one, unless there is none.
+    // The measurements of a frame arrive with the next one, if there is one.
     if (!renders || !wantsFrame(state.time, std::numeric_limits<double>::infinity()))
         self.collect();
     if (const auto message = self.recorder.poll())
@@ -222,7 +222,7 @@ void Workbench::Impl::inspectPixel(bool rendered) {
             inspection.reset();
         return;
     }
-    const std::size_t signal = std::min(state.signal, renderer.signals().size() - 1);
+    const std::size_t signal = shownSignal(state, renderer.signals().size());
     const bool same = inspection && inspection->pixel == wanted->pixel &&
                       inspection->state == wanted->pane && inspection->signal == signal;
     if (rendered || !same)

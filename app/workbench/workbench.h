@@ -39,12 +39,12 @@ public:
     /// the window's part for pictures; empty: nothing is rendered. Returns whether a frame was.
     bool advance(double wallSeconds, glm::ivec2 view);
 
-    /// What probes, counters and the inspector have found in a frame comes in with the next one, or
-    /// in the round after it where there is none, and at once where time stands still. This waits
-    /// for it.
+    /// Waits for the measurements of the last frame: probes, counters, inspector. Without this call
+    /// they arrive with the next frame, or in the next round where no frame is rendered; at once
+    /// where time stands still.
     void finishMeasuring();
 
-    /// How long nothing is to be done if nothing else happens: 0, or infinity.
+    /// Returns the seconds until advance() has work to do if nothing else happens.
     double secondsUntilFrame() const;
 
     /// What a pane shows now: RGBA8, sRGB-encoded; null before the first frame. In a difference,

@@ -96,7 +96,7 @@ void Workbench::Impl::serveRequests() {
 
 void Workbench::Impl::fitRange() {
     const std::size_t pane = state.panes.active, index = state.shown.index;
-    const std::size_t signal = std::min(state.signal, renderer.signals().size() - 1);
+    const std::size_t signal = shownSignal(state, renderer.signals().size());
     if (state.shown.kind == Shown::Kind::Aov && renderer.ran(pane) &&
         isMadeBy(aovs()[index], renderer.ran(pane)->settings))
         state.displays[index] =

@@ -19,14 +19,14 @@ struct AovInfo {
     bool perStratum = false;   ///< ceil(W/3) x ceil(H/3) instead of W x H
 };
 
-/// What a frame has to prepare for a filter.
+/// The work that a frame does for a filter before it runs.
 struct FilterNeeds {
     bool samples = false; ///< some of the last frame's samples, shaded again with their seeds
     bool lambda = false;  ///< the guides of strata, and those samples shaded where they are beside
                           ///< the picture
 };
 
-/// What a filter sees of a frame: its surfaces and one of its signals.
+/// The inputs of a filter: a frame's G-buffer and one of its signals.
 struct FilterInput {
     const Surfaces& surfaces;
     const GpuTexture &previousVisibility, &previousGuides;
@@ -74,8 +74,8 @@ struct FilterAov {
 };
 inline constexpr std::size_t kFilterResult = ~std::size_t(0);
 
-/// What filters of one family have in common. States keep their histories from one filter to
-/// another of the same family.
+/// The images, AOVs and programs that several filters share. A state keeps its histories when it
+/// changes to another filter of the same family.
 struct FilterFamily {
     std::span<const ImageDecl> images;
     std::span<const FilterAov> aovs;

@@ -1,4 +1,4 @@
-// What the filters of SVGF's family declare: their images, and those that can be looked at.
+// Declares the images and the AOVs of SVGF and its relatives.
 
 #include "renderer/filters/svgf_filter.h"
 
@@ -40,10 +40,12 @@ bool whereAdaptive(S s) {
     return makePlan(s).useLambda;
 }
 bool whereLambda(S s) {
-    return makePlan(s).useLambda || makePlan(s).usePercentiles;
+    const SvgfPlan plan = makePlan(s);
+    return plan.useLambda || plan.usePercentiles;
 }
 bool whereReconstructed(S s) {
-    return makePlan(s).useLambda && makePlan(s).gradientIterations > 0;
+    const SvgfPlan plan = makePlan(s);
+    return plan.useLambda && plan.gradientIterations > 0;
 }
 
 template <std::size_t place>

@@ -28,8 +28,8 @@ enum Image : std::size_t {
     kFiltered0,
     kFiltered1
 };
-/// Where the blend of the last frame is: it is the history itself where nothing is fed back from
-/// the spatial filter.
+/// Returns the image that holds the temporal blend: the history itself where nothing is fed back
+/// from the spatial filter.
 Image blendOf(const SvgfPlan& plan);
 } // namespace svgf
 

@@ -4,9 +4,8 @@
 
 namespace afterglow {
 
-/// What SVGF or one of its relatives does in one frame, with the parameters that its passes get.
-/// They differ in these values and in nothing else, so a difference between two pictures is a
-/// difference between two rows.
+/// The passes of SVGF or one of its relatives in one frame, with their parameters. Filters of the
+/// family differ in these values and in nothing else.
 struct SvgfPlan {
     bool accumulate = false;     ///< temporal accumulation; without it the raw signal is shown
     bool carrySamples = false;   ///< shade some of the last frame's samples again, with their seeds

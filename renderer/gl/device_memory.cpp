@@ -1,6 +1,7 @@
 #include "renderer/gl/device_memory.h"
 
 #include "renderer/base/error.h"
+#include "renderer/gl/errors.h"
 
 #include <array>
 #include <fstream>
@@ -31,10 +32,6 @@ std::optional<std::size_t> systemMemory() {
         if (word == "MemAvailable:" && file >> kilobytes)
             return kilobytes * 1024;
     return {};
-}
-
-std::string mebibytes(std::size_t bytes) {
-    return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
 }
 
 } // namespace

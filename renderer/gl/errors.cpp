@@ -86,16 +86,20 @@ void noteReportedGlError(std::string_view message) {
         account().first = message;
 }
 
+std::string mebibytes(std::size_t bytes) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f MiB", double(bytes) / (1024.0 * 1024.0));
+    return text;
+}
+
 void requireAllocated(std::string_view object, std::string_view wanted, std::size_t bytes) {
     std::vector<GLenum> errors = takeErrors();
     const bool isFull = std::erase(errors, GLenum(GL_OUT_OF_MEMORY)) > 0;
     countTaken(errors);
     if (!isFull)
         return;
-    char size[32];
-    std::snprintf(size, sizeof size, "%.1f MiB", double(bytes) / (1024.0 * 1024.0));
     throw Error(std::string(object) + ": the driver has no memory for " + std::string(wanted) +
-                ", " + size);
+                ", " + mebibytes(bytes));
 }
 
 } // namespace afterglow

@@ -20,6 +20,9 @@ void sweepGlErrors();
 /// For the callback of initializeGl(), on any thread.
 void noteReportedGlError(std::string_view message);
 
+/// "348.0 MiB"
+std::string mebibytes(std::size_t bytes);
+
 /// For allocateGl().
 void requireAllocated(std::string_view object, std::string_view wanted, std::size_t bytes);
 

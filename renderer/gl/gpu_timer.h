@@ -11,7 +11,7 @@
 
 namespace afterglow {
 
-/// How long a frame took and, where that is wanted, each part of it. Every scope is also a debug
+/// Measures the time of a frame and, if enabled, of each of its passes. Every scope is also a debug
 /// group, so that frame debuggers show the same names.
 ///
 /// On a GPU: timestamps, read a few frames late so that nobody waits. On a software rasterizer,

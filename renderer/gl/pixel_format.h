@@ -32,7 +32,7 @@ struct FormatInfo {
 };
 FormatInfo info(PixelFormat format);
 
-/// How a pixel type of ours is called by OpenGL.
+/// The names that OpenGL has for a pixel type of C++.
 struct PixelInfo {
     GLenum layout, type;
     std::string_view name;
@@ -53,6 +53,11 @@ template <>
 inline constexpr PixelInfo kPixelInfo<glm::uvec4>{GL_RGBA_INTEGER, GL_UNSIGNED_INT, "uvec4"};
 template <>
 inline constexpr PixelInfo kPixelInfo<glm::u8vec4>{GL_RGBA, GL_UNSIGNED_BYTE, "u8vec4"};
+
+/// Calls a macro with each pixel type that textures take and give.
+#define AFTERGLOW_FOR_EACH_PIXEL(use)                                                              \
+    use(float) use(glm::vec2) use(glm::vec4) use(std::uint32_t) use(glm::uvec2) use(glm::uvec4)    \
+        use(glm::u8vec4)
 
 /// Throws std::logic_error unless a texture of this format takes and gives such pixels.
 void checkPixel(std::string_view label, PixelFormat format, const PixelInfo& pixel);

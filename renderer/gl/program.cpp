@@ -54,7 +54,7 @@ GLuint idOf(const Binding& binding) {
                             : binding.texture->id();
 }
 
-/// Whether a uniform of this type can be given this texture, array or buffer.
+/// Returns whether a uniform of this type can take this texture, array or buffer.
 bool fits(GLenum type, const Binding& binding) {
     if (binding.block || type == GL_UNIFORM_BUFFER)
         return binding.block && type == GL_UNIFORM_BUFFER;

@@ -39,8 +39,8 @@ struct Binding {
 /// removed, and drivers prove different things.
 void setStrictBindings(bool strict);
 
-/// What a linked program needs from outside: its textures and uniform blocks by name, and one block
-/// named Params, which is its own.
+/// A linked program with its inputs by name: textures, uniform blocks, and one block named Params
+/// that it owns.
 /// Units and sizes are asked from the driver; they are written nowhere else.
 class LinkedProgram {
 public:
@@ -113,7 +113,7 @@ public:
                   std::initializer_list<Binding> writes) {
         dispatch(glm::ivec3(size, 1), reads, writes);
     }
-    // Where what is read depends on the frame.
+    // The same for lists whose length is not known when it is compiled.
     template <class Params>
     void dispatch(glm::ivec2 size, const Params& params, std::span<const Binding> reads,
                   std::span<const Binding> writes) {

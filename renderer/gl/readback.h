@@ -20,7 +20,7 @@ namespace afterglow {
 /// Nobody waits before finish(), and there for nothing that was given to the device after submit().
 class PixelReadback {
 public:
-    /// Where the pixels of one add() will be.
+    /// The place of the pixels of one add() in the buffer.
     template <class Pixel>
     struct Region {
         std::size_t offset = 0; ///< bytes

@@ -80,13 +80,7 @@ void GpuTexture::clear() {
     template void GpuTexture::write(const Image<Pixel>&);                                          \
     template Image<Pixel> GpuTexture::read() const;                                                \
     template Pixel GpuTexture::readAt(glm::ivec2) const;
-INSTANTIATE(float)
-INSTANTIATE(glm::vec2)
-INSTANTIATE(glm::vec4)
-INSTANTIATE(std::uint32_t)
-INSTANTIATE(glm::uvec2)
-INSTANTIATE(glm::uvec4)
-INSTANTIATE(glm::u8vec4)
+AFTERGLOW_FOR_EACH_PIXEL(INSTANTIATE)
 #undef INSTANTIATE
 
 } // namespace afterglow

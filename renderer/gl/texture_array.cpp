@@ -130,13 +130,7 @@ void GpuTextureArray::setSampling(const TextureSampling& sampling) {
 #define INSTANTIATE(Pixel)                                                                         \
     template void GpuTextureArray::write(int, const Image<Pixel>&);                                \
     template Image<Pixel> GpuTextureArray::read(int, int) const;
-INSTANTIATE(float)
-INSTANTIATE(glm::vec2)
-INSTANTIATE(glm::vec4)
-INSTANTIATE(std::uint32_t)
-INSTANTIATE(glm::uvec2)
-INSTANTIATE(glm::uvec4)
-INSTANTIATE(glm::u8vec4)
+AFTERGLOW_FOR_EACH_PIXEL(INSTANTIATE)
 #undef INSTANTIATE
 
 } // namespace afterglow

@@ -16,7 +16,7 @@ enum class TextureFilter {
 };
 enum class TextureWrap { Clamp, Repeat, MirroredRepeat };
 
-/// How a shader sees a texture that it samples.
+/// The filtering and wrapping of a texture that a shader samples.
 struct TextureSampling {
     TextureFilter filter = TextureFilter::Nearest;
     TextureWrap wrapX = TextureWrap::Clamp, wrapY = TextureWrap::Clamp;

@@ -1,5 +1,7 @@
 #include "renderer/passes/composite_pass.h"
 
+#include "renderer/resources/render_targets.h"
+
 #include <array>
 #include <stdexcept>
 #include <vector>
@@ -7,8 +9,9 @@
 namespace afterglow {
 namespace {
 
-constexpr std::array<std::string_view, 2> kSignalNames{"signal0", "signal1"};
-constexpr std::array<std::string_view, 2> kDemodulationNames{"demodulation0", "demodulation1"};
+constexpr std::array<std::string_view, kMaxSignals> kSignalNames{"signal0", "signal1"};
+constexpr std::array<std::string_view, kMaxSignals> kDemodulationNames{"demodulation0",
+                                                                       "demodulation1"};
 
 Defines definesFor(std::size_t signals) {
     return {{"SIGNALS", std::to_string(signals)}};
@@ -21,8 +24,8 @@ CompositePass::CompositePass(ShaderLibrary& shaders) : shaders_(shaders) {
 }
 
 void CompositePass::run(FrameContext& frame, const Inputs& in, const Outputs& out) {
-    if (in.terms.empty() || in.terms.size() > kSignalNames.size())
-        throw std::logic_error("CompositePass: it adds up one or two signals");
+    if (in.terms.empty() || in.terms.size() > kMaxSignals)
+        throw std::logic_error("CompositePass: no frame has so many signals");
     const auto scope = frame.pass("composite", {&out.composed});
     std::vector<Binding> reads{frame.block(), {"emission", in.emission}, {"guides", in.guides}};
     for (std::size_t i = 0; i < in.terms.size(); ++i) {

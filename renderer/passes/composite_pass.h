@@ -16,7 +16,7 @@ public:
         const GpuTexture& demodulation;
     };
     struct Inputs {
-        std::span<const Term> terms; ///< 1 or 2; any other number is std::logic_error
+        std::span<const Term> terms; ///< 1 to kMaxSignals; another number is std::logic_error
         const GpuTexture& emission;
         const GpuTexture& guides;
     };

@@ -9,8 +9,8 @@
 
 namespace afterglow {
 
-/// What the frame before holds at the four pixels around the position that a pixel's surface had in
-/// it, and at the source of its stratum's gradient sample. See shaders/post/history_taps.comp.
+/// Gathers the previous frame's values at the four taps of a pixel's history, and at the source of
+/// its stratum's gradient sample. See shaders/post/history_taps.comp.
 class HistoryTapsPass {
 public:
     struct Inputs {

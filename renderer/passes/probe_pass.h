@@ -26,7 +26,7 @@ struct ProbeReading {
 /// shaders/post/probe.comp.
 class ProbePass {
 public:
-    /// What lights the picture beside the signal that is looked at.
+    /// The second signal of the picture.
     struct OtherSignal {
         const GpuTexture &filtered, &raw, &demodulation;
     };
@@ -45,7 +45,7 @@ public:
     /// different sizes are std::logic_error.
     void run(FrameContext& frame, const Inputs& in, glm::ivec2 min, glm::ivec2 size);
 
-    /// What the last run has written; empty before the first.
+    /// Copies the sums of the last run into a readback; empty before the first run.
     using Region = PixelReadback::Region<glm::vec4>;
     Region copyTo(PixelReadback& readback) const;
     static ProbeReading readingOf(const PixelReadback& readback, const Region& region);

@@ -29,7 +29,7 @@ public:
     /// Control and guides of different sizes are std::logic_error.
     void run(FrameContext& frame, const Inputs& in);
 
-    /// What the last run has counted; 0 before the first.
+    /// Copies the counts of the last run into a readback; 0 before the first run.
     using Region = PixelReadback::Region<std::uint32_t>;
     Region copyTo(PixelReadback& readback) const;
     static ReasonCounts countsOf(const PixelReadback& readback, const Region& region);

@@ -14,9 +14,9 @@ std::span<const AovInfo> aovs();
 /// UsageError names an unknown name and the nearest known.
 const AovInfo& aovByName(std::string_view name);
 
-/// Whether a frame with this filter has it.
+/// Returns whether a frame with this filter has the AOV.
 bool isMadeBy(const AovInfo& aov, const FilterSettings& settings);
-/// Whether each signal of a frame has one of its own.
+/// Returns whether each signal of a frame has its own image of it.
 bool isPerSignal(const AovInfo& aov);
 
 /// Where the frame keeps an AOV: AovInfo::channels.size() channels of a texture, from one on.
@@ -34,7 +34,7 @@ AovSource sourceOf(const Renderer& renderer, const AovInfo& aov, std::size_t sta
 Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov, std::size_t state = 0,
                          std::size_t signal = 0);
 
-/// What a file of it is called: "raw", or "raw_ao" where a frame has several signals.
+/// Returns the name of a file with this AOV: "raw", or "raw_ao" where a frame has several signals.
 std::string fileStem(const AovInfo& aov, const SignalInfo& signal, std::size_t signals);
 
 } // namespace afterglow

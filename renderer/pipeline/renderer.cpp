@@ -189,7 +189,7 @@ void Renderer::Impl::trace(const FrameContext& outer, const Surfaces& surfaces,
     }
 }
 
-// What forward projection set beside the picture, shaded.
+// Shades the gradient samples that forward projection has set beside the picture.
 void Renderer::Impl::traceSamplesBeside(const FrameContext& outer) {
     FrameContext context = outer;
     context.prefix = "extra ";
@@ -206,7 +206,6 @@ void Renderer::Impl::filter(const FrameContext& context, const FilterRun& run, b
     RenderTargets& t = targets;
     SignalFilter& programsOfFilter = programsOf(familyOf(run.settings.filter));
     State& state = states[run.state];
-    state.ran = ranFilterOf(run.settings);
     for (std::size_t i = 0; i < signals.size(); ++i) {
         FrameContext own = context.forSignal(signals.size() > 1 ? signals[i].name : "");
         const SignalTargets& signal = t.signals[i];
@@ -231,7 +230,7 @@ const GpuTexture& Renderer::Impl::present(FrameContext& context, std::size_t sta
     FilterTargets& shown = t.filters[state];
     std::vector<CompositePass::Term> terms;
     for (std::size_t i = 0; i < signals.size(); ++i)
-        terms.push_back({*states[state].results[i], t.surfaces.albedo});
+        terms.push_back({*states[state].results[i], demodulation(i)});
     composite.run(context, {terms, t.surfaces.emission, t.surfaces.guides}, {shown.composed});
     tonemap.run(context, shown.composed, shown.display,
                 {std::exp2(settings.display.exposure), 0.0f, 0.0f, 0.0f});
@@ -265,11 +264,12 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
     context.listener = self.listener;
     const bool beside =
         SamplePlacement(settings.lighting.gradientSamples) == SamplePlacement::Extra;
+    self.states = {};
     FilterNeeds needs;
     for (const FilterRun& run : runs) {
-        const FilterNeeds own = needsOf(run.settings);
-        needs.samples = needs.samples || own.samples;
-        needs.lambda = needs.lambda || own.lambda;
+        const RanFilter& ran = self.states[run.state].ran.emplace(Impl::ranFilterOf(run.settings));
+        needs.samples = needs.samples || ran.needs.samples;
+        needs.lambda = needs.lambda || ran.needs.lambda;
     }
 
     self.visibility.run(context, *self.sceneGpu,
@@ -285,7 +285,6 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
     if (beside && needs.lambda)
         self.traceSamplesBeside(context);
 
-    self.states = {};
     for (const FilterRun& run : runs) {
         if (runs.size() > 1)
             context.prefix = std::string(1, char('A' + run.state)) + " ";
@@ -312,9 +311,8 @@ const GpuTexture& Renderer::filteredSignal(std::size_t state, std::size_t signal
     return *result;
 }
 
-// All light is reflected by diffuse surfaces yet.
-const GpuTexture& Renderer::demodulation(std::size_t) const {
-    return impl_->targets.surfaces.albedo;
+const GpuTexture& Renderer::demodulation(std::size_t signal) const {
+    return impl_->demodulation(signal);
 }
 
 const RanFilter* Renderer::ran(std::size_t state) const {

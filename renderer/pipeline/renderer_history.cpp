@@ -5,7 +5,7 @@
 namespace afterglow {
 namespace {
 
-std::vector<GpuTexture> copiesOf(const std::vector<const GpuTexture*>& images) {
+std::vector<GpuTexture> copiesOf(const std::vector<GpuTexture*>& images) {
     std::vector<GpuTexture> copies;
     for (const GpuTexture* image : images)
         copies.push_back(image->copy());
@@ -37,7 +37,7 @@ std::size_t HistoryCheckpoint::bytes() const {
 
 HistoryCheckpoint Renderer::checkpoint() const {
     impl_->requireScene();
-    const RenderTargets& t = impl_->targets;
+    RenderTargets& t = impl_->targets;
     HistoryCheckpoint kept{.signals = impl_->signals,
                            .images = copiesOf(t.kept()),
                            .filters = {},
@@ -47,7 +47,7 @@ HistoryCheckpoint Renderer::checkpoint() const {
         if (!impl_->states[i].ran)
             continue;
         kept.filters[i].emplace(*impl_->states[i].ran);
-        for (const ImageSet& own : t.filters[i].own)
+        for (ImageSet& own : t.filters[i].own)
             kept.filters[i]->images.push_back(copiesOf(own.kept()));
     }
     return kept;

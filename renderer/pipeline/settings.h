@@ -27,7 +27,7 @@ struct DisplaySettings {
     float exposure = 0.0f; ///< stops
 };
 
-/// What all filters of a frame share.
+/// The settings that all filters of a frame share.
 struct FrameSettings {
     LightingSettings lighting;
     DisplaySettings display;
@@ -50,7 +50,7 @@ struct Field {
     double min = 0.0, max = 1.0;
     bool logarithmic = false;
     std::span<const std::string_view> choices; ///< names of the values of an enumeration, from 0
-    /// Where it is: one of the two.
+    /// Returns the member of the settings; one of the two is null.
     Ref (*inFilter)(FilterSettings&) = nullptr;
     Ref (*inFrame)(FrameSettings&) = nullptr;
 

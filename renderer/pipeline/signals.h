@@ -7,7 +7,7 @@
 
 namespace afterglow {
 
-/// Which light is traced, and how it is divided into signals that are filtered by themselves.
+/// A division of the traced light into signals; each signal is filtered by itself.
 enum class Signal { Shadows, AmbientOcclusion, Both, Separate };
 
 /// One signal of a frame.
@@ -18,9 +18,9 @@ struct SignalInfo {
     bool operator==(const SignalInfo&) const = default;
 };
 
-/// What a frame's light is divided into: 1 to kMaxSignals, in the order of their numbers.
+/// Returns the signals of a frame, 1 to kMaxSignals, in the order of their numbers.
 std::span<const SignalInfo> signalsOf(Signal division);
-/// Whether any of them has rays that can reach the surroundings.
+/// Returns whether any signal has rays that can reach the surroundings.
 bool seesSurroundings(Signal division);
 
 std::span<const Signal> allSignals();

@@ -79,14 +79,6 @@ std::vector<GpuTexture*> ImageSet::kept() {
     return images;
 }
 
-std::vector<const GpuTexture*> ImageSet::kept() const {
-    std::vector<const GpuTexture*> images;
-    for (std::size_t i = 0; i < declared_.size(); ++i)
-        if (declared_[i].isHistory)
-            images.push_back(&current_[i]);
-    return images;
-}
-
 std::vector<const GpuTexture*> ImageSet::all() const {
     std::vector<const GpuTexture*> images;
     for (const auto* textures : {&current_, &previous_})

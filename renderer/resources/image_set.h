@@ -8,7 +8,7 @@
 
 namespace afterglow {
 
-/// What one texel of an image stands for.
+/// The part of the picture that one texel of an image covers.
 enum class ImageGrid { Pixels, Strata, Tiles };
 
 /// The number of strata that cover an image: ceil(size / 3).
@@ -45,9 +45,8 @@ public:
 
     void swapHistories(); ///< current becomes previous
     void clearHistories();
-    /// What this frame leaves for the next, in the order of the declarations.
+    /// Returns the images that the next frame reads, in the order of the declarations.
     std::vector<GpuTexture*> kept();
-    std::vector<const GpuTexture*> kept() const;
     std::vector<const GpuTexture*> all() const; ///< that there are
 
 private:

@@ -101,13 +101,6 @@ std::vector<GpuTexture*> RenderTargets::kept() {
     return images;
 }
 
-std::vector<const GpuTexture*> RenderTargets::kept() const {
-    std::vector<const GpuTexture*> images{&surfaces.visibility, &surfaces.guides, &seeds.current()};
-    for (const SignalTargets& signal : signals)
-        images.push_back(&signal.raw.current());
-    return images;
-}
-
 std::vector<const GpuTexture*> RenderTargets::all() const {
     std::vector<const GpuTexture*> textures = madeOf(
         {&ids, &depth, &previousVisibility, &previousGuides, &seeds.current(), &seeds.previous(),

@@ -10,9 +10,9 @@
 
 namespace afterglow {
 
-/// How many filters can run on the same signals, each with its own histories.
+/// The number of filters that can run on the same signals, each with its own histories.
 inline constexpr std::size_t kFilterStates = 4;
-/// How many signals a frame can have, each with its own noise, gradient and filter.
+/// The largest number of signals of a frame.
 inline constexpr std::size_t kMaxSignals = 2;
 
 /// One signal of a frame: a part of the light, of one sample a pixel.
@@ -31,7 +31,7 @@ struct SignalTargets {
     GpuTexture converged; ///< RGBA32F: mean signal, variance of one sample's luminance
 };
 
-/// What one filter makes of a frame and keeps of it.
+/// The images of one filter state.
 struct FilterTargets {
     FilterTargets() = default;
     explicit FilterTargets(glm::ivec2 size);
@@ -53,9 +53,8 @@ struct RenderTargets {
     void swapHistories(); ///< current becomes previous, of all that are not empty; once a frame
     /// So many signals; further ones begin with zeros.
     void setSignals(std::size_t count);
-    /// What a frame leaves for the next beside the histories of filters.
+    /// Returns the images that the next frame reads, without the histories of filters.
     std::vector<GpuTexture*> kept();
-    std::vector<const GpuTexture*> kept() const;
     std::vector<const GpuTexture*> all() const;
     std::size_t bytes() const;
 

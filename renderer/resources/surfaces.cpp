@@ -29,13 +29,6 @@ Surfaces::Surfaces(glm::ivec2 size, std::string_view prefix) {
     }
 }
 
-std::vector<GpuTexture*> Surfaces::all() {
-    std::vector<GpuTexture*> images;
-    for (const Row& row : kRows)
-        images.push_back(&(this->*row.image));
-    return images;
-}
-
 std::vector<const GpuTexture*> Surfaces::all() const {
     std::vector<const GpuTexture*> images;
     for (const Row& row : kRows)

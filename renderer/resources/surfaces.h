@@ -6,7 +6,7 @@
 
 namespace afterglow {
 
-/// What is seen at each texel: at the pixels of a picture, or at samples beside one. Contents are
+/// The G-buffer of a picture, or of gradient samples beside one: one surface a texel. Contents are
 /// specified in docs/pipeline.md.
 struct Surfaces {
     Surfaces() = default;
@@ -15,7 +15,6 @@ struct Surfaces {
 
     glm::ivec2 size() const { return visibility.size(); }
     bool empty() const { return size().x == 0; }
-    std::vector<GpuTexture*> all();
     std::vector<const GpuTexture*> all() const;
 
     GpuTexture visibility; ///< what the others are made from

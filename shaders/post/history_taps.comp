@@ -1,8 +1,8 @@
 #version 450 core
 
-// What the frame before holds around the position that one pixel's surface had in it, which
-// denoise/temporal.comp is given, and where its stratum's gradient sample comes from. Where that is
-// only the device knows before the frame is finished.
+// Copies the history around the position that one pixel's surface had in the frame before, as
+// denoise/temporal.comp is given it, and around the place that its stratum's gradient sample comes
+// from. Only the device knows these places before the frame is finished.
 
 #include "lib/fetch.glsl"
 #include "shared/bindings.h"

@@ -75,7 +75,7 @@ struct VarianceParams {
     float unused0;
 };
 
-// How a history is found again, beside what can be set.
+// Constants of the search for a history. The rest of it can be set.
 const float kLeastWeight = 0.01;   // of the valid taps together
 const float kDepthEpsilon = 0.005; // of the depth, added to the tolerance
 

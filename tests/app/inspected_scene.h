@@ -15,7 +15,7 @@ namespace afterglow::test {
 
 inline constexpr glm::ivec2 kInspectedSize{61, 37};
 
-/// What the last frame, of these settings, holds at a pixel: at once.
+/// Reads the facts of a pixel of the last frame, and waits for them.
 inline PixelFacts pixelFacts(Renderer& renderer, std::size_t state, const FrameSettings& settings,
                              glm::ivec2 pixel, std::size_t signal = 0) {
     PixelQuery query(testShaders());

@@ -1,4 +1,4 @@
-// What the inspector tells in words: where a sample came from, why there is none, what alpha is.
+// The inspector's sentences: the origin of a sample, the reason where there is none, alpha.
 
 #include "app/workbench/pixel_facts.h"
 #include "inspected_scene.h"

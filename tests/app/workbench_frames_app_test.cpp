@@ -1,71 +1,21 @@
-// The workbench without a window: frames, panes, probes, takes and files, driven by what keys do.
+// The workbench without a window: frames, panes, loops, passes and frozen moments, driven by keys.
 
 #include "app/experiment/experiment.h"
 #include "app/experiment/run_plan.h"
 #include "app/workbench/live_response.h"
 #include "app/workbench/pointer.h"
-#include "app/workbench/workbench.h"
-#include "program.h"
 #include "renderer/image/image_io.h"
-#include "renderer/scene/procedural.h"
-#include "tests/support/gl_fixture.h"
-#include "tests/support/sequence.h"
+#include "workbench_bench.h"
 
 #include <algorithm>
 #include <fstream>
-
-#include <doctest/doctest.h>
 
 using namespace afterglow;
 using namespace afterglow::test;
 
 namespace {
 
-constexpr glm::ivec2 kSize{61, 37};
-constexpr double kRound = 0.01; // seconds
-
-/// A workbench in a folder of its own, which renders 61 x 37 pixels.
-struct Bench {
-    explicit Bench(std::string_view scene, Filter filter = Filter::Asvgf)
-        : workbench(testShaders(), glInfo(testContext()), makeProceduralScene(scene),
-                    stateOf(scene, filter), {folder.path(), folder.path() / "presets"}) {}
-
-    static ViewState stateOf(std::string_view scene, Filter filter) {
-        ViewState state = startState(makeProceduralScene(scene), settingsOf(filter));
-        state.sceneName = scene;
-        state.resolution = {.followWindow = false, .scale = 1.0f, .fixed = kSize};
-        return state;
-    }
-
-    void press(char key, bool control = false, bool shift = false) {
-        press(keyOf(key), control, shift);
-    }
-    void press(Key key, bool control = false, bool shift = false) {
-        const auto command = commandFor({key, control, shift});
-        REQUIRE(command);
-        perform(state, *command);
-    }
-    /// So many frames, and not one more.
-    void frames(int count) {
-        for (int i = 0; i < count; ++i)
-            REQUIRE(workbench.advance(kRound, kSize));
-    }
-    bool round() { return workbench.advance(kRound, kSize); }
-    /// With the last frame.
-    const ProbeLog& log() {
-        workbench.finishMeasuring();
-        return workbench.probeLog();
-    }
-    Image<glm::u8vec4> picture(std::size_t pane) {
-        const GpuTexture* const texture = workbench.picture(pane);
-        REQUIRE(texture);
-        return texture->read<glm::u8vec4>();
-    }
-
-    TemporaryFolder folder;
-    Workbench workbench;
-    ViewState& state = workbench.state;
-};
+constexpr glm::ivec2 kSize = kBenchSize;
 
 double meanOf(const Image<glm::u8vec4>& image) {
     double sum = 0.0;
@@ -79,7 +29,7 @@ double meanOf(const Image<glm::u8vec4>& image) {
 TEST_CASE(
     "when the only light goes out the A-SVGF pane follows at once and the SVGF pane does not") {
     const GlCheck noGlMessages;
-    Bench bench("tiny");
+    WorkbenchBench bench("tiny");
     setField(bench.state.panes, fieldByKey("signal"), double(Signal::Shadows));
     bench.press('T'); // wipe: A-SVGF and SVGF
     REQUIRE(bench.state.panes.layout == PaneLayout::Wipe);
@@ -128,7 +78,7 @@ TEST_CASE(
 
 TEST_CASE("another filter, another pane and another layout clear no history") {
     const GlCheck noGlMessages;
-    Bench bench("cornell", Filter::Svgf);
+    WorkbenchBench bench("cornell", Filter::Svgf);
     setProbe(bench.state, 0, probeBetween({5, 5}, {55, 32}, kSize), kSize);
     bench.frames(24);
     const auto history = [&](std::size_t pane) {
@@ -156,7 +106,7 @@ TEST_CASE("another filter, another pane and another layout clear no history") {
 
 TEST_CASE("a loop between two points shows the same bits in every round, with lights and all") {
     const GlCheck noGlMessages;
-    Bench bench("moving");
+    WorkbenchBench bench("moving");
     bench.frames(7);
     bench.press('I');
     bench.frames(2);
@@ -196,7 +146,7 @@ TEST_CASE("a loop between two points shows the same bits in every round, with li
 
 TEST_CASE("an experiment in the window shows the frames that it measures, bit for bit") {
     const GlCheck noGlMessages;
-    Bench bench("tiny");
+    WorkbenchBench bench("tiny");
     const std::string file = (bench.folder.path() / "dim.json").string();
     std::ofstream(file) << R"({"name": "dim", "scene": "cornell", "size": [61, 37], "frames": 9,
         "seed": 5, "variants": ["asvgf", "svgf"], "animated": false,
@@ -238,34 +188,9 @@ TEST_CASE("an experiment in the window shows the frames that it measures, bit fo
     CHECK(std::ranges::find(recent, std::filesystem::path(file)) != recent.end());
 }
 
-TEST_CASE("files that are no scenes and no experiments are told and change nothing") {
-    const GlCheck noGlMessages;
-    Bench bench("tiny");
-    bench.frames(2);
-    const auto before = bench.picture(0);
-    std::ofstream(bench.folder.path() / "bad.json") << "{\"name\": ";
-    std::ofstream(bench.folder.path() / "bad.glb") << "no";
-    for (const std::string name : {"bad.json", "bad.glb", "missing.gltf"}) {
-        CAPTURE(name);
-        bench.workbench.open((bench.folder.path() / name).string());
-        CHECK(bench.state.notice.isError);
-        CHECK(bench.state.notice.text.find(name) != std::string::npos);
-        CHECK(bench.workbench.scene().name == "tiny");
-        CHECK(differingPixels(bench.picture(0), before) == 0);
-    }
-    bench.workbench.open("nowhere");
-    CHECK(bench.state.notice.isError);
-    bench.frames(1);
-    bench.workbench.open("cornell");
-    CHECK(bench.workbench.scene().name == "cornell");
-    CHECK(bench.state.lightNames.size() == 2);
-    CHECK(bench.workbench.picture(0) == nullptr);
-    bench.frames(1);
-}
-
 TEST_CASE("stepping goes from pass to pass of one frame and then to the next frame") {
     const GlCheck noGlMessages;
-    Bench bench("tiny");
+    WorkbenchBench bench("tiny");
     bench.frames(3);
     bench.press('.');
     bench.round();
@@ -312,7 +237,7 @@ TEST_CASE("stepping goes from pass to pass of one frame and then to the next fra
 
 TEST_CASE("what passes make does not depend on whether somebody looks") {
     const GlCheck noGlMessages;
-    Bench watched("tiny"), alone("tiny");
+    WorkbenchBench watched("tiny"), alone("tiny");
     watched.state.showPasses = watched.state.showInspector = true;
     watched.state.inspected = PanePixel{0, {30, 20}};
     setProbe(watched.state, 0, probeAt({30, 20}, kSize), kSize);
@@ -340,9 +265,9 @@ TEST_CASE("what passes make does not depend on whether somebody looks") {
 
 TEST_CASE("a frozen moment converges, is compared, and lives on as if nothing had been") {
     const GlCheck noGlMessages;
-    Bench bench("cornell"), judge("cornell");
+    WorkbenchBench bench("cornell"), judge("cornell");
     bench.state.oracleSamples = 64;
-    for (Bench* each : {&bench, &judge}) {
+    for (WorkbenchBench* each : {&bench, &judge}) {
         each->frames(12);
         each->press('1');
         each->frames(1);
@@ -377,14 +302,14 @@ TEST_CASE("a frozen moment converges, is compared, and lives on as if nothing ha
     CHECK(bench.workbench.oracleRmse(0).value() > *rmse);
     bench.press('U');
     CHECK_FALSE(bench.state.time.paused);
-    for (Bench* each : {&bench, &judge})
+    for (WorkbenchBench* each : {&bench, &judge})
         each->frames(2);
     CHECK(differingPixels(bench.picture(0), judge.picture(0)) == 0);
 }
 
 TEST_CASE("in the first frame of a loop's round the truth looks back to before the loop") {
     const GlCheck noGlMessages;
-    Bench bench("tiny");
+    WorkbenchBench bench("tiny");
     bench.state.oracleSamples = 4;
     bench.press('1'); // off
     bench.frames(6);
@@ -412,7 +337,7 @@ TEST_CASE("in the first frame of a loop's round the truth looks back to before t
 
 TEST_CASE("an inspected pixel is told as it was filtered, whatever the pane is set to since") {
     const GlCheck noGlMessages;
-    Bench bench("tiny");
+    WorkbenchBench bench("tiny");
     bench.state.showInspector = true;
     bench.state.inspected = PanePixel{0, {30, 20}};
     bench.frames(4);
@@ -426,125 +351,4 @@ TEST_CASE("an inspected pixel is told as it was filtered, whatever the pane is s
     bench.press('N');
     bench.round();
     CHECK(groups() < before);
-}
-
-TEST_CASE("pictures, images of the frame and recordings are files") {
-    const GlCheck noGlMessages;
-    Bench bench("tiny");
-    chooseLayout(bench.state.panes, PaneLayout::FourUp);
-    bench.frames(2);
-    bench.press(Key::F12);
-    bench.round();
-    const auto whole = readPng(bench.folder.path() / "afterglow-0001.png");
-    CHECK(whole.size() == 2 * kSize);
-    bench.press('T'); // difference
-    bench.press('T'); // single
-    bench.press(Key::F12, true);
-    bench.round();
-    const auto images = bench.folder.path() / "afterglow-images-0001";
-    CHECK(std::filesystem::exists(images / "picture.png"));
-    CHECK(std::filesystem::exists(images / "lambda.exr"));
-    bench.state.recordFrames = 3;
-    bench.press(Key::F9);
-    bench.frames(5);
-    CHECK_FALSE(bench.workbench.recorder().isRecording());
-    CHECK(std::filesystem::exists(bench.folder.path() / "afterglow-0001" / "frame_00002.png"));
-    CHECK_FALSE(
-        std::filesystem::exists(bench.folder.path() / "afterglow-0001" / "frame_00003.png"));
-    const auto recorded = readPng(bench.folder.path() / "afterglow-0001" / "frame_00002.png");
-    CHECK(recorded.size() == kSize);
-}
-
-TEST_CASE("a pane that is shown while time stands still has no picture before the next frame") {
-    const GlCheck noGlMessages;
-    Bench bench("tiny");
-    bench.frames(2);
-    bench.press('P');
-    chooseLayout(bench.state.panes, PaneLayout::TwoUp);
-    CHECK_FALSE(bench.round());
-    CHECK(bench.workbench.picture(0));
-    CHECK(bench.workbench.picture(1) == nullptr);
-    CHECK_FALSE(bench.workbench.legend(1).note.empty());
-    bench.press(Key::F12);
-    bench.round();
-    const auto half = readPng(bench.folder.path() / "afterglow-0001.png");
-    REQUIRE(half.size() == glm::ivec2(2 * kSize.x, kSize.y));
-    CHECK(half({30, 20}) != glm::u8vec4(0, 0, 0, 255));
-    CHECK(half({kSize.x + 30, 20}) == glm::u8vec4(0, 0, 0, 255));
-    chooseLayout(bench.state.panes, PaneLayout::Difference);
-    bench.round();
-    CHECK(bench.workbench.picture(0) == nullptr);
-    bench.press(Key::F12);
-    bench.round(); // nothing to be saved is no fault
-    bench.press('N');
-    CHECK(bench.round());
-    CHECK(bench.workbench.picture(0));
-}
-
-TEST_CASE("presets go from pane to pane through the clipboard and into files") {
-    const GlCheck noGlMessages;
-    Bench bench("tiny");
-    setField(bench.state.panes, fieldByKey("alpha"), 0.05);
-    bench.press('C', true, true);
-    bench.round();
-    const auto text = bench.workbench.takeCopied();
-    REQUIRE(text);
-    choosePane(bench.state.panes, 2);
-    REQUIRE(bench.state.settings().filter != Filter::Asvgf);
-    bench.workbench.paste(*text);
-    CHECK(bench.state.settings().filter == Filter::Asvgf);
-    CHECK(bench.state.settings().denoiser.temporal.alpha == 0.05f);
-    bench.workbench.paste(R"({"name": "x", "description": "d", "source": "s",
-        "filter": "asvgf", "settings": {"alhpa": 0.1}})");
-    CHECK(bench.state.notice.isError);
-    CHECK(bench.state.notice.text.find("alhpa") != std::string::npos);
-    CHECK(bench.state.settings().denoiser.temporal.alpha == 0.05f);
-    bench.state.wanted.savePreset = "mine";
-    bench.round();
-    CAPTURE(bench.state.notice.text);
-    CHECK(std::filesystem::exists(bench.folder.path() / "presets" / "mine.json"));
-    REQUIRE(bench.workbench.presets().find("mine"));
-    bench.state.wanted.savePreset = "paper"; // built in
-    bench.round();
-    CHECK(bench.state.notice.isError);
-    bench.state.wanted.removePreset = "mine";
-    bench.round();
-    CHECK_FALSE(bench.state.notice.isError);
-    CHECK(bench.state.notice.text == "Removed the preset mine");
-    CHECK(bench.workbench.presets().find("mine") == nullptr);
-    CHECK_FALSE(std::filesystem::exists(bench.folder.path() / "presets" / "mine.json"));
-}
-
-TEST_CASE("a difference of a filter with itself is black, and of two filters it is not") {
-    const GlCheck noGlMessages;
-    Bench bench("cornell");
-    bench.state.panes.gain = 64.0f;
-    copyPane(bench.state.panes, 0, 1);
-    chooseLayout(bench.state.panes, PaneLayout::Difference);
-    bench.frames(4);
-    CHECK(meanOf(bench.picture(0)) < 1.0);
-    chooseFilter(bench.state, Filter::Fixed);
-    bench.frames(2);
-    const double picture = meanOf(bench.picture(0));
-    CHECK(picture > 10.0);
-    // Of an image behind the picture, with its sign: gray is no difference.
-    const auto all = aovs();
-    const auto showNamed = [&](std::string_view name) {
-        show(bench.state, Shown::Kind::Aov,
-             std::size_t(std::ranges::find(all, name, &AovInfo::name) - all.begin()));
-        bench.frames(1);
-        CHECK(bench.workbench.picture(0));
-        return bench.workbench.legend(0);
-    };
-    const PictureLegend history = showNamed("history");
-    CHECK(history.name == "difference of history");
-    CHECK(history.note.empty());
-    REQUIRE(history.display);
-    CHECK(history.display->map == gpu::kMapSigned);
-    CHECK(history.display->low == -history.display->high);
-    CHECK(history.display->high == doctest::Approx(127.0 / 64.0)); // of 1 to 128, at gain 64
-    // What holds names and not numbers is left alone.
-    const PictureLegend instance = showNamed("instance");
-    CHECK_FALSE(instance.note.empty());
-    CHECK(instance.display->map == gpu::kMapRadiance);
 }

@@ -1,12 +1,6 @@
-// What probes and the inspector find in a frame is read a frame later, and belongs to that frame.
+// Probes and the inspector are read a frame late, and belong to the frame that they measured.
 
-#include "app/workbench/workbench.h"
-#include "program.h"
-#include "renderer/scene/procedural.h"
-#include "tests/support/gl_fixture.h"
-#include "tests/support/sequence.h"
-
-#include <doctest/doctest.h>
+#include "workbench_bench.h"
 
 #include <algorithm>
 
@@ -15,33 +9,19 @@ using namespace afterglow::test;
 
 namespace {
 
-constexpr glm::ivec2 kSize{61, 37};
+constexpr glm::ivec2 kSize = kBenchSize;
 
-struct Bench {
-    Bench()
-        : workbench(testShaders(), glInfo(testContext()), makeProceduralScene("tiny"), initial(),
-                    {folder.path(), folder.path() / "presets"}) {
+/// With two probes, an inspected pixel and two panes.
+struct MeasuringBench : WorkbenchBench {
+    MeasuringBench() : WorkbenchBench("tiny") {
         setProbe(state, 0, probeBetween({3, 5}, {40, 36}, kSize), kSize);
         setProbe(state, 2, probeAt({30, 20}, kSize), kSize);
         state.showInspector = true;
         state.inspected = PanePixel{0, {30, 20}};
         chooseLayout(state.panes, PaneLayout::TwoUp);
     }
-    static ViewState initial() {
-        ViewState state = startState(makeProceduralScene("tiny"), settingsOf(Filter::Asvgf));
-        state.resolution = {.followWindow = false, .scale = 1.0f, .fixed = kSize};
-        return state;
-    }
 
-    bool round() { return workbench.advance(0.01, kSize); }
-    void press(char key, bool control = false) {
-        perform(state, *commandFor({keyOf(key), control, false}));
-    }
     std::size_t logged() const { return workbench.probeLog().frames().size(); }
-
-    TemporaryFolder folder;
-    Workbench workbench;
-    ViewState& state = workbench.state;
 };
 
 bool isSame(const ProbeSample& a, const ProbeSample& b) {
@@ -98,7 +78,7 @@ std::string textOf(const Workbench& workbench) {
 
 TEST_CASE("what a frame was found to be comes in with the next frame, and is what it was") {
     const GlCheck noGlMessages;
-    Bench bench, judge;
+    MeasuringBench bench, judge;
     std::string before = "nothing";
     int different = 0;
     for (std::size_t i = 0; i < 14; ++i) {
@@ -136,7 +116,7 @@ TEST_CASE("what a frame was found to be comes in with the next frame, and is wha
 
 TEST_CASE("curves are whole where time stands still, after a step, and where they are copied") {
     const GlCheck noGlMessages;
-    Bench bench;
+    MeasuringBench bench;
     for (int i = 0; i < 5; ++i)
         bench.round();
     CHECK(bench.logged() == 4);
@@ -166,7 +146,7 @@ TEST_CASE("curves are whole where time stands still, after a step, and where the
 
 TEST_CASE("an inspected pixel is told at once where time stands still") {
     const GlCheck noGlMessages;
-    Bench bench;
+    MeasuringBench bench;
     for (int i = 0; i < 4; ++i)
         bench.round();
     bench.press('P');
@@ -195,7 +175,7 @@ TEST_CASE("an inspected pixel is told at once where time stands still") {
 
 TEST_CASE("what is on its way survives another size, and nothing survives another scene") {
     const GlCheck noGlMessages;
-    Bench bench, judge;
+    MeasuringBench bench, judge;
     for (int i = 0; i < 3; ++i) {
         bench.round();
         judge.round();
@@ -220,7 +200,7 @@ TEST_CASE("what is on its way survives another size, and nothing survives anothe
 
 TEST_CASE("what frames count is theirs") {
     const GlCheck noGlMessages;
-    Bench bench;
+    MeasuringBench bench;
     for (int i = 0; i < 3; ++i) {
         CHECK(bench.workbench.advance(1.0, kSize));
         bench.workbench.finishMeasuring();

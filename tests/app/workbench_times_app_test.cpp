@@ -1,4 +1,4 @@
-// What the workbench says of the time that frames take.
+// The workbench's frame times, as shown and as exported.
 
 #include "app/workbench/workbench.h"
 #include "program.h"

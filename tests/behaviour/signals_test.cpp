@@ -130,7 +130,7 @@ TEST_CASE("the light can be divided anew between two frames") {
         CHECK(sequence.renderer().signals().size() == signalsOf(signal).size());
         CHECK(sequence.renderer().readStats().invalidValues == 0);
     }
-    // What has come anew has no history of before.
+    // A new signal starts without a history.
     const auto moments = imageOf(sequence.targets(), svgf::kMoments, 0, 1).read<glm::vec4>();
     for (const glm::vec4& pixel : moments.pixels())
         CHECK(pixel.z <= 2.0f);

@@ -19,7 +19,7 @@ public:
     BarrierWatch();
     ~BarrierWatch();
 
-    /// What was wrong, each once: program, texture, way of access.
+    /// Returns each fault once: program, texture, way of access.
     const std::set<std::string>& faults() const { return faults_; }
     std::string text() const;
     int dispatches() const { return dispatches_; }

@@ -1,5 +1,5 @@
-// What a driver may do and llvmpipe does not do: give garbage in new storage, show late what was
-// written without a barrier, run workgroups in another order.
+// Freedoms of a driver that llvmpipe does not take: garbage in new storage, writes that are seen
+// late without a barrier, workgroups in another order.
 
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/framebuffer.h"

@@ -1,4 +1,4 @@
-// What the shaders ask of a driver, against what OpenGL 4.5 promises at the least.
+// The resources that the shaders use, against the minima that OpenGL 4.5 promises.
 
 #include "tests/driver/program_needs.h"
 #include "tests/driver/workload.h"

@@ -10,9 +10,9 @@ namespace afterglow::test {
 /// While it lives, new textures and buffers hold garbage: not-a-number, large numbers, 0.9 in depth
 /// images. OpenGL leaves them undefined, and a driver that gives zeros hides a missing clear.
 ///
-/// What is cleared before the next shader runs is garbage all the same: the renderer clears all
-/// that it makes, and no frame may rest on that. `clearedForUse` names the textures whose clear is
-/// a part of what follows, and counts.
+/// Fills storage again with garbage when it is cleared before the next shader runs: no frame may
+/// rely on the clear of new storage. `clearedForUse` names the textures whose clear is a part of
+/// the algorithm.
 class PoisonedStorage {
 public:
     explicit PoisonedStorage(std::set<std::string> clearedForUse);

@@ -8,7 +8,7 @@
 
 namespace afterglow::test {
 
-/// What one linked program asks of the driver.
+/// The resources that one linked program needs.
 struct ProgramNeeds {
     std::string name;
     bool isCompute = false;
@@ -37,7 +37,7 @@ private:
 /// Bytes of the shared variables that a shader declares.
 int sharedBytes(std::string_view shaderText);
 
-/// What the program needs beyond the least that OpenGL 4.5 promises; empty if that suffices.
+/// Returns the needs that exceed the minima of OpenGL 4.5; empty if there are none.
 std::string beyondMinima(const ProgramNeeds& needs);
 
 } // namespace afterglow::test

@@ -3,6 +3,7 @@
 #include "renderer/gl/errors.h"
 #include "renderer/gl/texture_array.h"
 #include "tests/support/gl_fixture.h"
+#include "tests/support/message_of.h"
 
 #include <latch>
 #include <optional>
@@ -14,15 +15,6 @@
 using namespace afterglow;
 
 namespace {
-
-std::string errorOf(auto act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no Error";
-}
 
 /// Debug output off, as in a context that reports nothing.
 class Silence {
@@ -48,16 +40,16 @@ void allocateTooMuch() {
 TEST_CASE("storage that the driver has no memory for is an error that says what was wanted") {
     testContext();
     const ExpectGlMessages expected;
-    CHECK(errorOf([] {
+    CHECK(messageOf<Error>([] {
               GpuTextureArray("huge", PixelFormat::RGBA32F, {16384, 16384}, 2048);
           }) == "texture huge: the driver has no memory for 2048 layers of 16384 x 16384 pixels of "
                 "RGBA32F with 1 levels, 8388608.0 MiB");
-    CHECK(errorOf([] { GpuBuffer("huge", std::size_t(1) << 55); }) ==
+    CHECK(messageOf<Error>([] { GpuBuffer("huge", std::size_t(1) << 55); }) ==
           "buffer huge: the driver has no memory for 36028797018963968 bytes, 34359738368.0 "
           "MiB");
     // The largest single texture; a GPU may have it.
     if (glInfo(testContext()).softwareRasterizer)
-        CHECK(errorOf([] {
+        CHECK(messageOf<Error>([] {
                   GpuTexture("large", PixelFormat::RGBA32F, {16384, 16384});
               }) == "texture large: the driver has no memory for 16384 x 16384 pixels of RGBA32F, "
                     "4096.0 MiB");
@@ -96,7 +88,7 @@ TEST_CASE("an allocation that fails for want of anything but memory is counted a
     const int before = glErrorCount();
     CHECK_NOTHROW(allocateGl("texture", "nothing", 0, misuse));
     CHECK(glErrorCount() == before + 1);
-    CHECK(errorOf([] { allocateGl("texture", "a lot", 3 << 19, allocateTooMuch); }) ==
+    CHECK(messageOf<Error>([] { allocateGl("texture", "a lot", 3 << 19, allocateTooMuch); }) ==
           "texture: the driver has no memory for a lot, 1.5 MiB");
 }
 

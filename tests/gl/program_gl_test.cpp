@@ -1,77 +1,18 @@
 #include "renderer/base/error.h"
 #include "renderer/gl/framebuffer.h"
 #include "shared/bindings.h"
+#include "tests/gl/compiled_program.h"
 #include "tests/support/compare.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/glsl_probe.h"
+#include "tests/support/message_of.h"
 
 #include <array>
-#include <random>
 
 #include <doctest/doctest.h>
 
 using namespace afterglow;
-
-namespace {
-
-constexpr glm::ivec2 kOdd{61, 37};
-
-ComputeProgram compile(std::string_view name, const std::string& body,
-                       const Defines& defines = {}) {
-    const std::string text = "#version 450 core\n"
-                             "#include \"lib/fetch.glsl\"\n"
-                             "layout(local_size_x = 8, local_size_y = 8) in;\n" +
-                             body;
-    return ComputeProgram(name, testShaders().source().expandText(name, text, defines));
-}
-
-/// Scales a picture and adds to it.
-const std::string kScale = R"(
-layout(std140, binding = 1) uniform Params { vec4 factor; vec4 summand; };
-Float4Texture(radiance);
-Float2Texture(guides);
-uniform writeonly image2D scaled;
-void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(p, sizeOf(radiance))))
-        return;
-    imageStore(scaled, p, fetch(radiance, p) * factor + summand + fetch(guides, p).xyyy);
-}
-)";
-struct ScaleParams {
-    glm::vec4 factor, summand;
-};
-
-Image<glm::vec4> randomImage(glm::ivec2 size, unsigned seed) {
-    std::mt19937 random(seed);
-    Image<glm::vec4> image(size);
-    for (glm::vec4& pixel : image.pixels())
-        for (int i = 0; i < 4; ++i)
-            pixel[i] = float(random() % 1025) / 1024.0f;
-    return image;
-}
-
-std::string logicErrorOf(auto act) {
-    try {
-        act();
-    } catch (const std::logic_error& error) {
-        return error.what();
-    }
-    return "no logic_error";
-}
-
-std::string errorOf(auto act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no Error";
-}
-
-const std::array<Defines, 2> kFetchPaths{Defines{}, Defines{{"FETCH_BY_IMAGE", "1"}}};
-
-} // namespace
+using namespace afterglow::test;
 
 TEST_CASE("a program reads, writes and takes parameters at an odd size, by image and by sampler") {
     testContext();
@@ -253,7 +194,7 @@ void main() {
     TexelBuffer bits("bits", 44 * 4, PixelFormat::R32UI);
     GpuTexture picture("picture", PixelFormat::R32F, kOdd);
     const auto give = [&](const Binding& read, const Binding& written) {
-        return logicErrorOf([&] {
+        return messageOf<std::logic_error>([&] {
             program.dispatch(glm::ivec2(8, 6), {read, {"fours", fours}}, {written});
         });
     };
@@ -265,7 +206,7 @@ void main() {
     CHECK(give({"ones", picture}, {"sums", sums}) ==
           "add.comp declares ones as samplerBuffer, but was given a texture of format R32F");
     GpuTexture out("out", PixelFormat::RGBA32F, kOdd), guides("guides", PixelFormat::RG32F, kOdd);
-    CHECK(logicErrorOf([&] {
+    CHECK(messageOf<std::logic_error>([&] {
               compile("scale.comp", kScale)
                   .dispatch(kOdd, ScaleParams{}, {{"radiance", fours}, {"guides", guides}},
                             {{"scaled", out}});
@@ -304,149 +245,6 @@ void main() {
     CHECK(visitsOf(glm::ivec2(size), size) == expected);
 }
 
-TEST_CASE("dispatch refuses names that are misspelt, missing or given twice") {
-    testContext();
-    const GlCheck check;
-    ComputeProgram program = compile("scale.comp", kScale);
-    GpuTexture r("r", PixelFormat::RGBA32F, kOdd), g("g", PixelFormat::RG32F, kOdd);
-    const ScaleParams params{};
-    CHECK(logicErrorOf([&] {
-              program.dispatch(kOdd, params, {{"radiance", r}, {"guide", g}}, {{"scaled", r}});
-          }) == "scale.comp has no texture named guide; it has guides, radiance, scaled");
-    CHECK(logicErrorOf([&] {
-              program.dispatch(kOdd, params, {{"radiance", r}}, {});
-          }) == "scale.comp uses guides, radiance, scaled but was not given guides, scaled");
-    CHECK(logicErrorOf([&] {
-              program.dispatch(kOdd, params, {{"radiance", r}, {"guides", g}, {"scaled", r}},
-                               {{"scaled", r}});
-          }) == "scale.comp was given scaled twice");
-}
-
-TEST_CASE("where bindings are not strict, a surplus name is let pass, and a missing one is no "
-          "texture of before") {
-    testContext();
-    const GlCheck check;
-    const Image<glm::vec4> input = randomImage(kOdd, 5);
-    GpuTexture r("r", PixelFormat::RGBA32F, kOdd), g("g", PixelFormat::RG32F, kOdd);
-    GpuTexture out("out", PixelFormat::RGBA32F, kOdd);
-    r.write(input);
-    g.write(Image<glm::vec2>(kOdd, {16, 32}));
-    const ScaleParams params{glm::vec4(1), glm::vec4(0)};
-    setStrictBindings(false);
-    for (const Defines& defines : kFetchPaths) {
-        ComputeProgram program = compile("scale.comp", kScale, defines);
-        CHECK_NOTHROW(program.dispatch(
-            kOdd, params, {{"radiance", r}, {"guides", g}, {"unused", r}}, {{"scaled", out}}));
-        CHECK(out.read<glm::vec4>()({7, 5}) == input({7, 5}) + glm::vec4(16, 32, 32, 32));
-        // A misspelt name is a surplus one and a missing one.
-        CHECK_NOTHROW(
-            program.dispatch(kOdd, params, {{"radiance", r}, {"guide", g}}, {{"scaled", out}}));
-        CHECK(out.read<glm::vec4>()({7, 5}) == input({7, 5})); // of nothing, rg is zero
-        out.clear();
-        CHECK_NOTHROW(program.dispatch(kOdd, params, {{"radiance", r}, {"guides", g}}, {}));
-        CHECK(out.read<glm::vec4>()({7, 5}) == glm::vec4(0)); // nothing was stored
-    }
-    setStrictBindings(true);
-}
-
-TEST_CASE("dispatch refuses a texture of another kind than the shader declares") {
-    testContext();
-    const GlCheck check;
-    GpuTexture floats("floats", PixelFormat::RGBA32F, kOdd),
-        uints("uints", PixelFormat::RG32UI, kOdd), guides("guides", PixelFormat::RG32F, kOdd),
-        depth("depth", PixelFormat::Depth32F, kOdd);
-    TexelBuffer texels("texels", 0);
-    const auto give = [&](const Defines& defines, const Binding& radiance, const Binding& scaled) {
-        return logicErrorOf([&] {
-            compile("scale.comp", kScale, defines)
-                .dispatch(kOdd, ScaleParams{}, {radiance, {"guides", guides}}, {scaled});
-        });
-    };
-    CHECK(give({}, {"radiance", uints}, {"scaled", floats}) ==
-          "scale.comp declares radiance as sampler2D, but was given a texture of format RG32UI");
-    CHECK(give({}, {"radiance", texels}, {"scaled", floats}) ==
-          "scale.comp declares radiance as sampler2D, but was given a buffer of texels of "
-          "format RGBA32UI");
-    CHECK(give({}, {"radiance", floats}, {"scaled", uints}) ==
-          "scale.comp declares scaled as image2D, but was given a texture of format RG32UI");
-    CHECK(give(kFetchPaths[1], {"radiance", depth}, {"scaled", floats}) ==
-          "scale.comp declares radiance as image2D, but was given a texture of format Depth32F");
-    CHECK(give({}, {"radiance", GpuTexture()}, {"scaled", floats}) ==
-          "scale.comp was given nothing as radiance: the texture was never made");
-    CHECK(logicErrorOf([&] {
-              compile("scale.comp", kScale)
-                  .dispatch(kOdd, ScaleParams{}, {{"guides", guides}},
-                            {{"radiance", floats}, {"scaled", floats}});
-          }) == "scale.comp samples radiance; it cannot be written");
-}
-
-TEST_CASE("dispatch refuses parameters that are not of the size of the block") {
-    testContext();
-    const GlCheck check;
-    GpuTexture r("r", PixelFormat::RGBA32F, kOdd), g("g", PixelFormat::RG32F, kOdd);
-    GpuTexture out("out", PixelFormat::RGBA32F, kOdd);
-    ComputeProgram scale = compile("scale.comp", kScale);
-    CHECK(
-        logicErrorOf([&] {
-            scale.dispatch(kOdd, glm::mat4(1), {{"radiance", r}, {"guides", g}}, {{"scaled", out}});
-        }) == "scale.comp: its Params block is 32 bytes, but 64 were given");
-    CHECK(logicErrorOf([&] {
-              scale.dispatch(kOdd, {{"radiance", r}, {"guides", g}}, {{"scaled", out}});
-          }) == "scale.comp: its Params block is 32 bytes, but 0 were given");
-    ComputeProgram plain = compile("plain.comp", "void main() {}\n");
-    CHECK(logicErrorOf([&] { plain.dispatch(kOdd, glm::vec4(1), {}, {}); }) ==
-          "plain.comp has no Params block, but 16 bytes were given");
-    CHECK_NOTHROW(plain.dispatch(kOdd, {}, {}));
-}
-
-TEST_CASE("a uniform block is read under its name, another one in the next dispatch") {
-    testContext();
-    const GlCheck check;
-    GpuBuffer first("first", 16), second("second", 16);
-    first.write(std::array{glm::vec4(1, 2, 3, 4)});
-    second.write(std::array{glm::vec4(5, 6, 7, 8)});
-    ComputeProgram program = compile("frame.comp", R"(
-layout(std140, binding = 0) uniform Frame { vec4 ofFrame; };
-layout(std140, binding = 1) uniform Params { vec4 ofPass; };
-uniform writeonly image2D result;
-void main() { imageStore(result, ivec2(gl_GlobalInvocationID.xy), ofFrame + ofPass); }
-)");
-    GpuTexture result("result", PixelFormat::RGBA32F, {8, 8});
-    const auto run = [&](const GpuBuffer& block, float add) {
-        program.dispatch({8, 8}, glm::vec4(add), {{"Frame", block}}, {{"result", result}});
-        return result.read<glm::vec4>();
-    };
-    CHECK_CLOSE(run(first, 10), Image<glm::vec4>({8, 8}, {11, 12, 13, 14}), Tolerance{});
-    CHECK_CLOSE(run(second, 10), Image<glm::vec4>({8, 8}, {15, 16, 17, 18}), Tolerance{});
-    CHECK_CLOSE(run(first, 20), Image<glm::vec4>({8, 8}, {21, 22, 23, 24}), Tolerance{});
-
-    CHECK(logicErrorOf([&] {
-              program.dispatch({8, 8}, glm::vec4(1), {}, {{"result", result}});
-          }) == "frame.comp uses Frame, result but was not given Frame");
-    CHECK(logicErrorOf([&] {
-              program.dispatch({8, 8}, glm::vec4(1), {{"Frame", result}}, {{"result", result}});
-          }) == "frame.comp declares Frame as a uniform block, but was given a texture of format "
-                "RGBA32F");
-    CHECK(logicErrorOf([&] {
-              program.dispatch({8, 8}, glm::vec4(1), {{"Frame", first}}, {{"result", first}});
-          }) ==
-          "frame.comp declares result as image2D, but was given a buffer with a uniform block");
-}
-
-TEST_CASE("a shader that does not compile is an error at its own line") {
-    testContext();
-    const GlCheck check; // what the compiler says is not a misuse of OpenGL
-    const std::string error =
-        errorOf([] { compile("bad.comp", "void main() { dott(vec3(1), vec3(1)); }\n"); });
-    CHECK(error.starts_with("bad.comp:4: "));
-    CHECK(error.find("dott") != std::string::npos);
-    if (glInfo(testContext()).softwareRasterizer)
-        CHECK(error == "bad.comp:4: no function with name 'dott'");
-    CHECK(errorOf([] {
-              compile("loop.comp", "void f();\nvoid main() { f(); }\n");
-          }).starts_with("loop.comp: "));
-}
-
 TEST_CASE("the top of clip space is row 0, and depth runs from 0 to 1") {
     testContext();
     const GlCheck check;
@@ -480,7 +278,7 @@ void main() { id = uvec2(mark, uint(gl_FragCoord.y)); }
     program.set("mark", std::uint32_t(7));
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_DEPTH_TEST);
-    CHECK(logicErrorOf([&] { program.set("dept", 1.0f); }) ==
+    CHECK(messageOf<std::logic_error>([&] { program.set("dept", 1.0f); }) ==
           "half.vert + half.frag has no uniform named dept");
 
     const auto drawn = ids.read<glm::uvec2>();
@@ -501,5 +299,6 @@ TEST_CASE("a probe maps an expression over its inputs") {
         expected.emplace_back(2 * i, i, -2 * i, 2 + i);
     }
     CHECK_CLOSE(probe({}, "2.0 * x + vec4(0, 0, 0, i)", inputs), expected, Tolerance{});
-    CHECK(errorOf([&] { probe({}, "nothing(x)", inputs); }).find("nothing") != std::string::npos);
+    CHECK(messageOf<Error>([&] { probe({}, "nothing(x)", inputs); }).find("nothing") !=
+          std::string::npos);
 }

@@ -5,6 +5,7 @@
 #include "renderer/gl/texture.h"
 #include "tests/support/compare.h"
 #include "tests/support/gl_fixture.h"
+#include "tests/support/message_of.h"
 
 #include <array>
 #include <bit>
@@ -56,15 +57,6 @@ Image<Pixel> exactHalves(glm::ivec2 size) {
     return image;
 }
 
-std::string logicErrorOf(auto act) {
-    try {
-        act();
-    } catch (const std::logic_error& error) {
-        return error.what();
-    }
-    return "no logic_error";
-}
-
 } // namespace
 
 TEST_CASE("what is written to a texture of any format is read back, bit by bit") {
@@ -95,14 +87,14 @@ TEST_CASE("a texture knows its bytes, and what it is made of") {
 TEST_CASE("pixels that a texture cannot hold are refused") {
     testContext();
     GpuTexture texture("slope", PixelFormat::RG32F, kOdd);
-    CHECK(logicErrorOf([&] { texture.write(Image<glm::vec4>(kOdd)); }) ==
+    CHECK(messageOf<std::logic_error>([&] { texture.write(Image<glm::vec4>(kOdd)); }) ==
           "texture slope is RG32F, which does not hold pixels of type vec4");
-    CHECK(logicErrorOf([&] { texture.read<glm::uvec2>(); }) ==
+    CHECK(messageOf<std::logic_error>([&] { texture.read<glm::uvec2>(); }) ==
           "texture slope is RG32F, which does not hold pixels of type uvec2");
-    CHECK(logicErrorOf([&] {
+    CHECK(messageOf<std::logic_error>([&] {
               texture.write(Image<glm::vec2>({37, 61}));
           }) == "texture slope is 61 x 37 pixels, but was given 37 x 61");
-    CHECK(logicErrorOf([&] {
+    CHECK(messageOf<std::logic_error>([&] {
               GpuTexture("none", PixelFormat::R32F, {0, 4});
           }) == "texture none would be 0 x 4 pixels");
 }
@@ -129,7 +121,7 @@ TEST_CASE("a buffer is zero at first, keeps what is written, and refuses too muc
     buffer.write(std::vector<std::uint32_t>{1, 2, 3});
     buffer.write(std::array<std::uint32_t, 1>{9}, 4 * sizeof(std::uint32_t));
     CHECK(buffer.read<std::uint32_t>() == std::vector<std::uint32_t>{1, 2, 3, 0, 9});
-    CHECK(logicErrorOf([&] { buffer.write(std::vector<std::uint32_t>(5), 4); }) ==
+    CHECK(messageOf<std::logic_error>([&] { buffer.write(std::vector<std::uint32_t>(5), 4); }) ==
           "buffer numbers has 20 bytes, but 20 were given for offset 4");
     CHECK(GpuBuffer().empty());
     CHECK(GpuBuffer("nothing", 0).empty());
@@ -175,16 +167,16 @@ TEST_CASE("a buffer of texels has its format, and takes only values that are who
         CHECK(texels == 32 / info(format).bytes);
     }
     TexelBuffer fours("fours", 64, PixelFormat::RGBA32F), ones("ones", 64, PixelFormat::R32F);
-    CHECK(logicErrorOf([&] { fours.write(std::vector<float>(5)); }) ==
+    CHECK(messageOf<std::logic_error>([&] { fours.write(std::vector<float>(5)); }) ==
           "buffer fours has texels of 16 bytes, but was given 5 values of 4");
-    CHECK(logicErrorOf([&] { // whole texels, but records of which none is
+    CHECK(messageOf<std::logic_error>([&] { // whole texels, but records of which none is
               fours.write(std::vector<std::array<float, 6>>(2));
           }) == "buffer fours has texels of 16 bytes, but was given 2 values of 24");
     CHECK_NOTHROW(ones.write(std::vector<float>(5)));
     CHECK_NOTHROW(ones.write(std::vector<std::array<float, 6>>(1)));
     for (const PixelFormat format :
          {PixelFormat::Depth32F, PixelFormat::SRGBA8, PixelFormat::RGBA8, PixelFormat::RGBA16F})
-        CHECK(logicErrorOf([&] { TexelBuffer("none", 16, format); }) ==
+        CHECK(messageOf<std::logic_error>([&] { TexelBuffer("none", 16, format); }) ==
               "buffer none cannot have texels of format " + std::string(info(format).name));
 }
 
@@ -229,7 +221,7 @@ TEST_CASE("attachments that do not go together are named by the driver's status"
     CHECK_THROWS_WITH_AS(
         Framebuffer("none", {}),
         "framebuffer none is not complete: GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT", Error);
-    CHECK(logicErrorOf([&] {
+    CHECK(messageOf<std::logic_error>([&] {
               Framebuffer("sizes", {&color, &small});
           }) == "framebuffer sizes: small is not of the size of the others");
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -56,15 +57,26 @@ Picture randomPicture(glm::ivec2 size, std::uint32_t seed) {
     return picture;
 }
 
-ProbeReading probe(ProbePass& pass, const Picture& picture, const Rectangle& rectangle) {
-    const GpuTexture filtered = upload("filtered", picture.filtered);
-    const GpuTexture raw = upload("raw", picture.raw);
-    const GpuTexture albedo = upload("albedo", picture.albedo);
-    const GpuTexture guides = upload("guides", picture.guides);
-    const GpuTexture control = upload("control", picture.control);
+/// `second`: another signal of the same surfaces.
+ProbeReading probe(ProbePass& pass, const Picture& picture, const Rectangle& rectangle,
+                   const Picture* second = nullptr) {
+    struct Textures {
+        explicit Textures(const Picture& p)
+            : filtered(upload("filtered", p.filtered)), raw(upload("raw", p.raw)),
+              albedo(upload("albedo", p.albedo)), guides(upload("guides", p.guides)),
+              control(upload("control", p.control)) {}
+        GpuTexture filtered, raw, albedo, guides, control;
+    };
+    const Textures t(picture);
+    ProbePass::Inputs in{t.filtered, t.raw, t.albedo, t.guides, t.control};
+    std::optional<Textures> other;
+    if (second) {
+        other.emplace(*second);
+        in.other.emplace(ProbePass::OtherSignal{other->filtered, other->raw, other->albedo});
+    }
     GpuTimer timer(true);
     FrameContext context{timer};
-    pass.run(context, {filtered, raw, albedo, guides, control}, rectangle.min, rectangle.size);
+    pass.run(context, in, rectangle.min, rectangle.size);
     return pass.read();
 }
 
@@ -294,24 +306,9 @@ TEST_CASE("of two signals a probe reads the picture, and the filter of one") {
     for (std::size_t i = 0; i < picture.guides.pixels().size(); ++i) // the surfaces of both
         if (second.guides.pixels()[i].w == 0.0f)
             picture.guides.pixels()[i].w = 0.0f;
-    const GpuTexture filtered = upload("filtered", picture.filtered);
-    const GpuTexture raw = upload("raw", picture.raw);
-    const GpuTexture albedo = upload("albedo", picture.albedo);
-    const GpuTexture guides = upload("guides", picture.guides);
-    const GpuTexture control = upload("control", picture.control);
-    const GpuTexture otherFiltered = upload("filtered", second.filtered);
-    const GpuTexture otherRaw = upload("raw", second.raw);
-    const GpuTexture otherAlbedo = upload("albedo", second.albedo);
-    GpuTimer timer(true);
-    FrameContext context{timer};
-    ProbePass pass(testShaders());
-    pass.run(context,
-             {filtered, raw, albedo, guides, control,
-              ProbePass::OtherSignal{otherFiltered, otherRaw, otherAlbedo}},
-             {7, 3}, {40, 30});
-    const ProbeReading both = pass.read();
-
     const Rectangle rectangle{{7, 3}, {40, 30}};
+    ProbePass pass(testShaders());
+    const ProbeReading both = probe(pass, picture, rectangle, &second);
     const ProbeReading one = reference(picture, rectangle);
     Picture rest = second;
     rest.guides = picture.guides;

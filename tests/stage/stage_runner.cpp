@@ -10,36 +10,17 @@
 #include "renderer/passes/variance_pass.h"
 #include "shared/frame.h"
 #include "tests/reference/luminance_range.h"
+#include "tests/stage/upload.h"
 
 namespace afterglow::test {
 namespace {
-
-PixelFormat formatOf(float) {
-    return PixelFormat::R32F;
-}
-PixelFormat formatOf(glm::vec2) {
-    return PixelFormat::RG32F;
-}
-PixelFormat formatOf(glm::vec4) {
-    return PixelFormat::RGBA32F;
-}
-PixelFormat formatOf(glm::uvec4) {
-    return PixelFormat::RGBA32UI;
-}
-
-template <class Pixel>
-GpuTexture upload(std::string_view label, const Image<Pixel>& image) {
-    GpuTexture texture(label, formatOf(Pixel{}), image.size());
-    texture.write(image);
-    return texture;
-}
 
 template <class Pixel>
 GpuTexture output(std::string_view label, glm::ivec2 size) {
     return upload(label, Image<Pixel>(size, Pixel(-1234.5f)));
 }
 
-/// What passes run in: a timer, and a frame's uniform block.
+/// The timer and the frame's uniform block that passes run with.
 struct Stage {
     explicit Stage(const RandomFrame& frame, bool historyValid = true)
         : block("frame", sizeof(gpu::FrameUniforms)) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/support/message_of.h"
+
 #include "renderer/base/error.h"
 
 #include <cstdlib>
@@ -43,16 +45,5 @@ public:
 private:
     std::filesystem::path path_;
 };
-
-/// What an exception of one kind says when f is called; empty if it throws none of that kind.
-template <class Exception, class F>
-std::string messageOf(F f) {
-    try {
-        f();
-    } catch (const Exception& error) {
-        return error.what();
-    }
-    return "";
-}
 
 } // namespace afterglow

@@ -35,8 +35,7 @@ struct LightBench {
     std::vector<PaneModel> panes;
     std::vector<double> state;
     std::uint64_t seed = 0;
-    /// Whether the signal is noisy: 0 or twice the light, at even odds, in each pixel.
-    bool noisy = false;
+    bool noisy = false; ///< 0 or twice the light, at even odds, in each pixel
     int pixels = 100;
     std::optional<double> secondLight; ///< at probe B, if it is there
     std::array<bool, kPanes> runs{true, true, true, true};

@@ -1,4 +1,4 @@
-// What noise may do to a live response, and what not.
+// Live responses measured under noise.
 
 #include "tests/unit/light_bench.h"
 

@@ -1,6 +1,7 @@
 #include "renderer/base/error.h"
 #include "renderer/gl/embedded_shaders.h"
 #include "renderer/gl/shader_source.h"
+#include "tests/support/message_of.h"
 #include "tests/support/source_dir.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,15 +33,6 @@ private:
 std::string fileText(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string errorOf(auto act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no Error";
 }
 
 std::vector<std::string> locations(const ExpandedShader& shader) {
@@ -90,16 +82,16 @@ TEST_CASE("a file that is not there is named, and the line that asks for it") {
         .write("lib/b.glsl", "\n#include \"lib/none.glsl\"\n");
     folder.write("open.comp", "#include \"lib\n");
     const ShaderSource source = folder.source();
-    CHECK(errorOf([&] { source.expand("a.comp"); }) ==
+    CHECK(messageOf<Error>([&] { source.expand("a.comp"); }) ==
           "lib/b.glsl:2: there is no shader file lib/none.glsl");
-    CHECK(errorOf([&] {
+    CHECK(messageOf<Error>([&] {
               source.expand("none.comp");
           }).starts_with("there is no shader file none.comp in /"));
-    CHECK(errorOf([&] { source.expand("open.comp"); }) ==
+    CHECK(messageOf<Error>([&] { source.expand("open.comp"); }) ==
           "open.comp:1: an include without its closing quote");
-    CHECK(errorOf([] { ShaderSource::embedded().expand("none.comp"); }) ==
+    CHECK(messageOf<Error>([] { ShaderSource::embedded().expand("none.comp"); }) ==
           "there is no shader file none.comp in the executable");
-    CHECK(errorOf([] { ShaderSource::fromDirectory("/none/at/all"); }) ==
+    CHECK(messageOf<Error>([] { ShaderSource::fromDirectory("/none/at/all"); }) ==
           "/none/at/all is not a directory of shaders");
 }
 
@@ -152,8 +144,7 @@ TEST_CASE("the executable carries every shader, byte by byte, and nothing else")
 }
 
 TEST_CASE("every shader expands to the same text from the executable as from the source folder") {
-    const ShaderSource folder =
-        ShaderSource::fromDirectory(sourceDir() / "shaders");
+    const ShaderSource folder = ShaderSource::fromDirectory(sourceDir() / "shaders");
     for (const EmbeddedFile& file : embeddedFiles()) {
         if (!file.name.ends_with(".comp") && !file.name.ends_with(".vert") &&
             !file.name.ends_with(".frag"))

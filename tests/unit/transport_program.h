@@ -11,7 +11,7 @@
 
 namespace afterglow::test {
 
-/// What a program renders with a transport: each picture is told apart from every other by all that
+/// A program that renders with a transport. Each picture is told apart from every other by all that
 /// goes into it, the pictures before included.
 struct Program {
     struct Rendered {
