@@ -13,11 +13,20 @@ set(passes_may "base;image;scene;bvh;gl;resources;passes")
 set(filters_may "base;image;scene;bvh;gl;resources;passes;filters")
 set(pipeline_may "base;image;scene;bvh;gl;resources;passes;filters;pipeline")
 
+# Folders of app/. All may know the renderer.
+set(app_base_may "base")
+set(app_scenario_may "base;scenario")
+set(app_measure_may "base;scenario;measure")
+set(app_report_may "base;scenario;measure;report")
+set(app_experiment_may "base;scenario;measure;report;experiment")
+set(app_workbench_may "base;scenario;measure;report;experiment;workbench")
+set(app_commands_may "base;scenario;measure;report;experiment;commands")
+
 # Foreign libraries and the files that may see them.
 set(foreign
     "tiny_gltf.h|renderer/scene/"
-    "stb/|renderer/image/|app/experiment/"
-    "stb_|renderer/image/|app/experiment/|app/report/"
+    "stb/|renderer/image/|app/report/"
+    "stb_|renderer/image/|app/report/"
     "tinyexr.h|renderer/image/"
     "GL/osmesa.h|renderer/gl/context_osmesa.cpp"
     "EGL/|renderer/gl/context_egl.cpp"
@@ -39,6 +48,12 @@ foreach(file IN LISTS files)
             endif()
             if(line MATCHES "\"(app|tests)/")
                 string(APPEND faults "${file}: the renderer may not know ${CMAKE_MATCH_1}: ${line}\n")
+            endif()
+        endif()
+        if(file MATCHES "^app/([a-z]+)/")
+            set(folder ${CMAKE_MATCH_1})
+            if(DEFINED app_${folder}_may AND line MATCHES "\"app/([a-z]+)/" AND NOT CMAKE_MATCH_1 IN_LIST app_${folder}_may)
+                string(APPEND faults "${file}: app/${folder} may not know app/${CMAKE_MATCH_1}: ${line}\n")
             endif()
         endif()
         foreach(rule IN LISTS foreign)

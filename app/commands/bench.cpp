@@ -1,7 +1,7 @@
 #include "app/commands/bench.h"
 
-#include "app/experiment/output.h"
-#include "app/experiment/progress.h"
+#include "app/base/output.h"
+#include "app/base/progress.h"
 #include "renderer/scene/load_scene.h"
 
 #include <cstdio>

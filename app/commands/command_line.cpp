@@ -1,13 +1,13 @@
 #include "app/commands/command_line.h"
 
+#include "app/base/interrupt.h"
+#include "app/base/output.h"
 #include "app/commands/arguments.h"
 #include "app/commands/command_words.h"
 #include "app/commands/exchange_words.h"
 #include "app/commands/experiment_words.h"
 #include "app/commands/headless.h"
 #include "app/commands/list.h"
-#include "app/experiment/interrupt.h"
-#include "app/experiment/output.h"
 #include "renderer/base/error.h"
 #include "renderer/gl/errors.h"
 

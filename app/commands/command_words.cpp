@@ -1,6 +1,6 @@
 #include "app/commands/command_words.h"
 
-#include "app/experiment/presets.h"
+#include "app/scenario/presets.h"
 
 #include "app/commands/arguments.h"
 #include "renderer/base/error.h"

@@ -1,11 +1,11 @@
 #include "app/commands/experiment.h"
 
+#include "app/base/interrupt.h"
 #include "app/commands/arguments.h"
-#include "app/experiment/interrupt.h"
-#include "app/experiment/presets.h"
 #include "app/experiment/run_files.h"
-#include "app/experiment/summary.h"
+#include "app/measure/summary.h"
 #include "app/report/report.h"
+#include "app/scenario/presets.h"
 #include "renderer/base/error.h"
 
 #include <algorithm>

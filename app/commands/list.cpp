@@ -2,8 +2,8 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/headless.h"
-#include "app/experiment/experiment.h"
-#include "app/experiment/presets.h"
+#include "app/scenario/experiment.h"
+#include "app/scenario/presets.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/aov.h"
 #include "renderer/scene/load_scene.h"

@@ -1,9 +1,9 @@
 #include "app/commands/render.h"
 
-#include "app/experiment/aov_files.h"
-#include "app/experiment/output.h"
-#include "app/experiment/progress.h"
-#include "app/experiment/reference.h"
+#include "app/base/aov_files.h"
+#include "app/base/output.h"
+#include "app/base/progress.h"
+#include "app/measure/reference.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/aov.h"
 #include "renderer/scene/load_scene.h"

@@ -27,7 +27,7 @@ struct ViewOptions {
 };
 
 /// Opens the window and returns the exit code when it has been closed. Implemented beside the
-/// window: app_core knows only this declaration.
+/// window: commands know only this declaration.
 int runView(const ViewOptions& options);
 
 } // namespace afterglow

@@ -1,9 +1,9 @@
 #include "app/experiment/export_frames.h"
 
-#include "app/experiment/aov_files.h"
-#include "app/experiment/machine.h"
+#include "app/base/aov_files.h"
+#include "app/base/machine.h"
 #include "app/experiment/run_files.h"
-#include "app/experiment/truth.h"
+#include "app/measure/truth.h"
 #include "renderer/base/error.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/experiment/output.h"
-#include "app/experiment/progress.h"
-#include "app/experiment/run_plan.h"
+#include "app/base/output.h"
+#include "app/base/progress.h"
+#include "app/scenario/run_plan.h"
 #include "renderer/pipeline/aov.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/experiment/meter.h"
+#include "app/measure/meter.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
 // mergeRuns(): what parts of a run have written, as one run would have.
 
-#include "app/experiment/metrics_table.h"
 #include "app/experiment/run_files.h"
 #include "app/experiment/runner.h"
+#include "app/measure/metrics_table.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 

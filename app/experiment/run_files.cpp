@@ -1,9 +1,9 @@
 #include "app/experiment/run_files.h"
 
-#include "app/experiment/metrics_table.h"
-#include "app/experiment/run_sheet.h"
-#include "app/experiment/summary.h"
+#include "app/measure/metrics_table.h"
+#include "app/measure/summary.h"
 #include "app/report/report.h"
+#include "app/report/run_sheet.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/experiment/output.h"
+#include "app/base/output.h"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 #include "app/experiment/runner.h"
 
+#include "app/base/machine.h"
 #include "app/experiment/import_frames.h"
-#include "app/experiment/machine.h"
-#include "app/experiment/meter.h"
 #include "app/experiment/run_files.h"
+#include "app/measure/meter.h"
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "app/experiment/experiment.h"
-#include "app/experiment/output.h"
-#include "app/experiment/progress.h"
-#include "app/experiment/reference.h"
-#include "app/experiment/run_plan.h"
+#include "app/base/output.h"
+#include "app/base/progress.h"
+#include "app/measure/reference.h"
+#include "app/scenario/experiment.h"
+#include "app/scenario/run_plan.h"
 
 #include <filesystem>
 

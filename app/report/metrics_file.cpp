@@ -1,6 +1,6 @@
 #include "app/report/metrics_file.h"
 
-#include "app/experiment/metrics_table.h"
+#include "app/measure/metrics_table.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 

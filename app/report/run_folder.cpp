@@ -1,7 +1,7 @@
 #include "app/report/run_folder.h"
 
-#include "app/experiment/json_reader.h"
-#include "app/experiment/output.h"
+#include "app/base/json_reader.h"
+#include "app/base/output.h"
 #include "app/report/metrics_file.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"

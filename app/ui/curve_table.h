@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/measure/live_response.h"
 #include "app/ui/curve_chart.h"
-#include "app/workbench/live_response.h"
 
 #include <span>
 #include <string>

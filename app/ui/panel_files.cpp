@@ -4,7 +4,7 @@
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
-#include "app/experiment/experiment.h"
+#include "app/scenario/experiment.h"
 #include "renderer/scene/procedural.h"
 
 #include <string>

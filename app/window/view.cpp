@@ -1,7 +1,7 @@
 #include "app/commands/view.h"
 
-#include "app/experiment/experiment.h"
-#include "app/experiment/run_plan.h"
+#include "app/scenario/experiment.h"
+#include "app/scenario/run_plan.h"
 #include "app/window/viewer.h"
 #include "renderer/base/error.h"
 #include "renderer/base/log.h"

@@ -1,6 +1,6 @@
 #include "app/window/viewer.h"
 
-#include "app/experiment/output.h"
+#include "app/base/output.h"
 #include "renderer/image/image_io.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "app/measure/probe_log.h"
 #include "app/workbench/inspection.h"
 #include "app/workbench/pixel_facts.h"
-#include "app/workbench/probe_log.h"
 #include "app/workbench/view_state.h"
 #include "renderer/passes/probe_pass.h"
 #include "renderer/passes/reason_pass.h"

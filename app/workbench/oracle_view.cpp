@@ -1,8 +1,8 @@
 #include "app/workbench/oracle_view.h"
 
-#include "app/experiment/meter.h"
-#include "app/experiment/oracle.h"
-#include "app/experiment/reference.h"
+#include "app/measure/meter.h"
+#include "app/measure/oracle.h"
+#include "app/measure/reference.h"
 #include "renderer/image/color.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "app/workbench/preferences.h"
 
-#include "app/experiment/json_reader.h"
+#include "app/base/json_reader.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 

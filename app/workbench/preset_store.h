@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/experiment/presets.h"
+#include "app/scenario/presets.h"
 
 #include <filesystem>
 #include <span>

@@ -1,8 +1,8 @@
 #include "app/workbench/tour.h"
 
-#include "app/experiment/embedded.h"
-#include "app/experiment/json_reader.h"
-#include "app/experiment/presets.h"
+#include "app/base/embedded.h"
+#include "app/base/json_reader.h"
+#include "app/scenario/presets.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/aov.h"
 

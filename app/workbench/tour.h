@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/experiment/variant.h"
+#include "app/scenario/variant.h"
 #include "app/workbench/view_state.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/workbench/take.h"
+#include "app/scenario/take.h"
 
 #include <array>
 #include <cstddef>

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "app/measure/probe_log.h"
 #include "app/workbench/fields.h"
 #include "app/workbench/fly_camera.h"
 #include "app/workbench/frame_images.h"
 #include "app/workbench/keymap.h"
 #include "app/workbench/panes.h"
 #include "app/workbench/preferences.h"
-#include "app/workbench/probe_log.h"
 #include "app/workbench/scene_event.h"
 #include "app/workbench/transport.h"
 #include "renderer/scene/scene.h"

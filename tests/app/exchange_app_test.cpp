@@ -3,7 +3,7 @@
 
 #include "program.h"
 
-#include "app/experiment/metrics_table.h"
+#include "app/measure/metrics_table.h"
 #include "renderer/image/image_io.h"
 
 #include <algorithm>

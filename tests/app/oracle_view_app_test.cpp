@@ -1,7 +1,7 @@
 // The truth of a frozen frame, against experiments and against what must be.
 
-#include "app/experiment/meter.h"
-#include "app/experiment/oracle.h"
+#include "app/measure/meter.h"
+#include "app/measure/oracle.h"
 #include "app/workbench/oracle_view.h"
 #include "renderer/pipeline/aov.h"
 #include "renderer/scene/procedural.h"

@@ -1,8 +1,8 @@
 // The workbench without a window: frames, panes, loops, passes and frozen moments, driven by keys.
 
-#include "app/experiment/experiment.h"
-#include "app/experiment/run_plan.h"
-#include "app/workbench/live_response.h"
+#include "app/measure/live_response.h"
+#include "app/scenario/experiment.h"
+#include "app/scenario/run_plan.h"
 #include "app/workbench/pointer.h"
 #include "renderer/image/image_io.h"
 #include "workbench_bench.h"

@@ -1,7 +1,7 @@
 // The competing filters against A-SVGF and SVGF: what they gain, what they cost, what they cannot
 // do. Bounds are around measured values, with their causes.
 
-#include "app/experiment/response.h"
+#include "app/measure/response.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/procedural.h"
 #include "tests/support/gl_fixture.h"

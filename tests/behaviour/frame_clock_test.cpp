@@ -1,6 +1,6 @@
 // The times of passes that a command reports are those of the frame that it reports.
 
-#include "app/experiment/output.h"
+#include "app/base/output.h"
 #include "renderer/scene/procedural.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/sequence.h"

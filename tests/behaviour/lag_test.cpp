@@ -1,6 +1,6 @@
 // Ghosting and lag as numbers: what the whole program is about.
 
-#include "app/experiment/response.h"
+#include "app/measure/response.h"
 #include "renderer/scene/procedural.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/sequence.h"

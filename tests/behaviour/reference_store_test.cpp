@@ -1,6 +1,6 @@
 // The error that references state, and that one from a cache is the one that was converged.
 
-#include "app/experiment/reference.h"
+#include "app/measure/reference.h"
 #include "renderer/scene/procedural.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/sequence.h"

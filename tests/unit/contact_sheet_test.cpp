@@ -1,5 +1,5 @@
-#include "app/experiment/canvas.h"
-#include "app/experiment/contact_sheet.h"
+#include "app/report/canvas.h"
+#include "app/report/contact_sheet.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
-#include "app/experiment/embedded.h"
-#include "app/experiment/experiment.h"
-#include "app/experiment/run_plan.h"
+#include "app/base/embedded.h"
+#include "app/scenario/experiment.h"
+#include "app/scenario/run_plan.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/image/color.h"
@@ -204,8 +204,8 @@ TEST_CASE("a mistake in an experiment is named by file and place, with what was 
           "small.json: rate: expected a number from 0.001 to 1000, found 0");
     CHECK(refusal("seed", "4294967296") ==
           "small.json: seed: expected a whole number >= 0, found 4294967296");
-    CHECK(refusal("signal", R"("light")") ==
-          "small.json: signal: expected \"shadows\", \"ao\", \"both\" or \"separate\", found \"light\"");
+    CHECK(refusal("signal", R"("light")") == "small.json: signal: expected \"shadows\", \"ao\", "
+                                             "\"both\" or \"separate\", found \"light\"");
     CHECK(refusal("variants", "[]") ==
           "small.json: variants: expected a list of variants, found a list of 0");
     CHECK(refusal("variants", R"(["svgf", "svgf"])") ==

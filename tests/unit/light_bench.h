@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/workbench/live_response.h"
+#include "app/measure/live_response.h"
 
 #include <array>
 #include <cstdint>

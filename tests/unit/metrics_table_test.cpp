@@ -1,4 +1,4 @@
-#include "app/experiment/metrics_table.h"
+#include "app/measure/metrics_table.h"
 #include "renderer/base/error.h"
 
 #include <cmath>

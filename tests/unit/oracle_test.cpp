@@ -1,4 +1,4 @@
-#include "app/experiment/oracle.h"
+#include "app/measure/oracle.h"
 
 #include <random>
 #include <stdexcept>

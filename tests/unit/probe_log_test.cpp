@@ -1,5 +1,5 @@
-#include "app/workbench/probe_csv.h"
-#include "app/workbench/probe_log.h"
+#include "app/measure/probe_csv.h"
+#include "app/measure/probe_log.h"
 
 #include <charconv>
 #include <cmath>

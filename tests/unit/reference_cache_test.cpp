@@ -1,6 +1,6 @@
 // The names of references and the folder that keeps them. Nothing here needs OpenGL.
 
-#include "app/experiment/reference.h"
+#include "app/measure/reference.h"
 #include "renderer/base/file.h"
 #include "renderer/scene/procedural.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "app/experiment/response.h"
+#include "app/measure/response.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "app/experiment/reference.h"
+#include "app/measure/reference.h"
 
 #include <algorithm>
 #include <vector>

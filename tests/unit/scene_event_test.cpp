@@ -1,4 +1,4 @@
-#include "app/experiment/experiment.h"
+#include "app/scenario/experiment.h"
 #include "app/workbench/scene_event.h"
 #include "renderer/image/color.h"
 #include "window_hands.h"

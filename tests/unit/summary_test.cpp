@@ -1,4 +1,4 @@
-#include "app/experiment/summary.h"
+#include "app/measure/summary.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "app/workbench/take_experiment.h"
+#include "app/scenario/take_experiment.h"
 #include "app/workbench/transport.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/load_scene.h"

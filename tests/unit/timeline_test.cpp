@@ -1,4 +1,4 @@
-#include "app/experiment/timeline.h"
+#include "app/scenario/timeline.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/procedural.h"
 

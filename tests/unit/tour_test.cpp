@@ -1,4 +1,4 @@
-#include "app/experiment/presets.h"
+#include "app/scenario/presets.h"
 #include "app/workbench/tour.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/aov.h"

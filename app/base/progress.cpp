@@ -1,0 +1,57 @@
+#include "app/base/progress.h"
+
+#include "app/base/interrupt.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace afterglow {
+
+Progress::Progress(double total)
+    : total_(std::max(total, 1e-9)), visible_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+    if (visible_)
+        std::fputs("\r\033[K", stderr);
+}
+
+void Progress::advance(double work, std::string_view doing) {
+    throwIfInterrupted();
+    done_ = std::min(done_ + work, total_);
+    const auto now = Clock::now();
+    if (!visible_ || (now - drawn_ < std::chrono::milliseconds(100) && done_ < total_))
+        return;
+    drawn_ = now;
+    constexpr int kCells = 28;
+    const double whole = std::max(total_ - skipped_, done_);
+    const double part = whole > 0.0 ? done_ / whole : 1.0;
+    const int filled = int(part * kCells);
+    std::string bar(std::size_t(filled), '=');
+    if (filled < kCells)
+        bar += '>';
+    bar.resize(kCells, ' ');
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const std::string left = clockText(elapsed * (1.0 - part) / std::max(part, 1e-6));
+    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s left  %.*s", bar.c_str(), int(part * 100.0),
+                 left.c_str(), int(doing.size()), doing.data());
+    std::fflush(stderr);
+}
+
+void Progress::skip(double work) {
+    skipped_ = std::min(skipped_ + work, total_);
+}
+
+std::string clockText(double seconds) {
+    const auto whole = (long long)(std::clamp(seconds, 0.0, 359999.0) + 0.5);
+    char text[32];
+    if (whole >= 3600)
+        std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60,
+                      whole % 60);
+    else
+        std::snprintf(text, sizeof text, "%lld:%02lld", whole / 60, whole % 60);
+    return text;
+}
+
+} // namespace afterglow

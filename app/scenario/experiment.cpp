@@ -1,0 +1,43 @@
+#include "app/scenario/experiment.h"
+
+#include "app/base/embedded.h"
+#include "renderer/base/error.h"
+#include "renderer/base/file.h"
+#include "renderer/base/names.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace afterglow {
+
+std::vector<ExperimentInfo> builtInExperiments() {
+    std::vector<ExperimentInfo> infos;
+    for (const EmbeddedFile& file : embeddedExperiments()) {
+        const Experiment experiment = parseExperiment(file.text, std::string(file.name) + ".json");
+        infos.push_back({experiment.name, experiment.description});
+    }
+    return infos;
+}
+
+Experiment loadExperiment(std::string_view nameOrPath) {
+    const std::filesystem::path path(nameOrPath);
+    if (nameOrPath.find('/') != nameOrPath.npos || nameOrPath.ends_with(".json"))
+        return parseExperiment(readFile(path), nameOrPath);
+
+    std::vector<std::string_view> known;
+    for (const EmbeddedFile& file : embeddedExperiments()) {
+        if (file.name == nameOrPath)
+            return parseExperiment(file.text, std::string(file.name) + ".json");
+        known.push_back(file.name);
+    }
+    throw UsageError(unknownName("experiment", nameOrPath, known) +
+                     "; the name of a file ends in .json");
+}
+
+Timeline shortened(const Timeline& timeline, int frames) {
+    std::vector<TimelineEvent> events = timeline.events();
+    std::erase_if(events, [&](const TimelineEvent& event) { return frameOf(event) >= frames; });
+    return Timeline(frames, std::move(events));
+}
+
+} // namespace afterglow
