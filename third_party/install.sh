@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
     build-essential cmake ninja-build pkg-config ccache
     libglfw3-dev libglm-dev libimgui-dev libtinygltf-dev libstb-dev libtinyexr-dev
-    nlohmann-json3-dev libcli11-dev python3-glad
+    nlohmann-json3-dev libcli11-dev libfmt-dev python3-glad
     libosmesa6-dev libosmesa6 libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libgl1
     fonts-roboto-unhinted
 )
