@@ -94,13 +94,4 @@ void tellSoftwareRenderer(const GlInfo& gl) {
         std::printf("%s, a software renderer: times are of the CPU\n", gl.renderer.c_str());
 }
 
-void requireNoGlErrors(int before) {
-    const int errors = glErrorCount() - before;
-    if (errors > 0)
-        throw Error("OpenGL failed " + std::to_string(errors) + (errors == 1 ? " time" : " times") +
-                    ", first with \"" + firstGlError() +
-                    "\": what was written may be wrong, and so may references that were kept; "
-                    "delete it");
-}
-
 } // namespace afterglow

@@ -58,8 +58,4 @@ struct Headless {
 /// Prints a line about what drew, if that was the CPU.
 void tellSoftwareRenderer(const GlInfo& gl);
 
-/// Throws Error if there was an error of OpenGL since there were `before` of them: what was written
-/// in the meantime may look whole and be wrong.
-void requireNoGlErrors(int before);
-
 } // namespace afterglow

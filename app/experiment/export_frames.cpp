@@ -102,13 +102,12 @@ void exportFrames(const Experiment& experiment, const RunPlan& plan, Renderer& r
     fs::remove(folder.path() / kAccount); // it says that all others are there
 
     const Settings settings = settingsOf(variantOf(Filter::None), experiment.signal);
-    const Truths truths(experiment, plan);
     const float aspect = float(experiment.size.x) / float(experiment.size.y);
     Json frames = Json::array();
     renderer.setScene(plan.scene);
     renderer.resize(experiment.size);
     for (int frame = 0; frame < experiment.frames(); ++frame) {
-        const FrameInput input = truths.inputAt(frame);
+        const FrameInput input = inputAt(experiment, plan, frame);
         renderer.render(input, settings);
         for (const AovInfo* aov : aovs)
             writeAov(folder, format, renderer, *aov, frame);

@@ -6,6 +6,7 @@
 #include "app/measure/meter.h"
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"
+#include "renderer/gl/errors.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -37,7 +38,7 @@ std::string keyOf(const Variant& variant, const Experiment& experiment, const Ru
     hash.add(toJson(alone));
     hash.add(programFingerprint());
     // The scene, the shaders and the driver: all that a converged picture of it depends on.
-    const FrameInput input = Truths(experiment, plan).inputAt(0);
+    const FrameInput input = inputAt(experiment, plan, 0);
     const Settings settings = settingsOf(variant, experiment.signal);
     hash.add(referenceKey({.scene = plan.scene,
                            .size = experiment.size,
@@ -74,6 +75,8 @@ private:
     void makeReferences();
     void runVariant(const Variant& variant);
     void importVariant(const Variant& variant);
+    void finishVariant(const Variant& variant, const MetricsTable& table, const OutputFolder& out,
+                       const Json& timing);
     void measure(Meter& meter, int frame, const Variant& variant, const FrameImages& images,
                  MetricsTable& table, const OutputFolder& out);
     Json describeRun() const;
@@ -109,6 +112,7 @@ void Run::makeReferences() {
         sayProgress(samples, "references, " + std::to_string(experiment_.referenceSamples) +
                                  " samples a pixel");
     });
+    requireSoundContext(); // rather than after hours
     const OutputFolder out = folder_.subfolder("reference");
     Json spent = Json::array();
     for (std::size_t i = 0; i < plan_.moments.size(); ++i) {
@@ -151,14 +155,14 @@ void Run::runVariant(const Variant& variant) {
     renderer_.timer().setEnabled(true);
     for (int frame = 0; frame < own_.end; ++frame) {
         if (own_.contains(frame)) {
-            clock.render(renderer_, truths_.inputAt(frame), settings);
+            clock.render(renderer_, inputAt(experiment_, plan_, frame), settings);
             table.add(variant.name, frame, "rays", double(clock.stats().back().rays));
             table.add(variant.name, frame, "gradient_samples",
                       clock.stats().back().gradientSamples);
             table.add(variant.name, frame, "invalid_values", clock.stats().back().invalidValues);
             measure(meter, frame, variant, readFrame(renderer_, true), table, out);
         } else {
-            renderer_.render(truths_.inputAt(frame), settings);
+            renderer_.render(inputAt(experiment_, plan_, frame), settings);
             if (frame == own_.first - 1 || plan_.settled.contains(frame))
                 meter.skip(frame, readFrame(renderer_, false));
         }
@@ -166,10 +170,9 @@ void Run::runVariant(const Variant& variant) {
                     variant.name + ", frame " + std::to_string(frame + 1) + " of " +
                         std::to_string(own_.end));
     }
-    out.writeText("metrics.csv", table.csv({variant.name}));
     Json timing = {{"first", own_.first}, {"end", own_.end}};
     timing.update(describe(clock));
-    markFinished(out, key(variant), Json::array({timing}));
+    finishVariant(variant, table, out, Json::array({timing}));
 }
 
 // What another program has made takes the place of what a filter would have made of each frame.
@@ -181,15 +184,22 @@ void Run::importVariant(const Variant& variant) {
     MetricsTable table;
     renderer_.resetHistory();
     for (int frame = own_.first; frame < own_.end; ++frame) {
-        renderer_.render(truths_.inputAt(frame), settings);
+        renderer_.render(inputAt(experiment_, plan_, frame), settings);
         measure(meter, frame, variant, options_.imported->show(frame, renderer_, settings), table,
                 out);
         sayProgress(kFrameWork, variant.name + ", frame " + std::to_string(frame + 1) + " of " +
                                     std::to_string(own_.end));
     }
     out.writeJson("import.json", options_.imported->describe());
+    finishVariant(variant, table, out, Json::array()); // nobody knows how long they took
+}
+
+// What OpenGL has failed at is not finished, however whole its files look.
+void Run::finishVariant(const Variant& variant, const MetricsTable& table, const OutputFolder& out,
+                        const Json& timing) {
     out.writeText("metrics.csv", table.csv({variant.name}));
-    markFinished(out, key(variant), Json::array()); // nobody knows how long they took
+    requireSoundContext();
+    markFinished(out, key(variant), timing);
 }
 
 Json Run::describeRun() const {

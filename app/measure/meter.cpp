@@ -178,13 +178,13 @@ void Meter::addMap(std::size_t signal, const char* name, Image<float> map) {
 }
 
 void Meter::measureLambda(int frame, const Image<float>& lambda, std::size_t signal) {
-    const std::size_t moment = momentAt(plan_.moments, frame);
-    const SignalTruth& truth = truths_.of(moment).signals[signal];
-    const bool isFirst = frame == plan_.moments[moment].first;
-    const Mask& strata = isFirst ? truth.litFirst : truth.litLater;
-    if (lambda.size().x == 0 || frame == 0 || countOf(strata) == 0)
+    if (lambda.size().x == 0 || frame == 0)
         return;
-    const Image<float> ideal = isFirst ? truth.idealLambda : Image<float>(lambda.size());
+    const std::size_t moment = momentAt(plan_.moments, frame);
+    const auto [ideal, strata] = truths_.of(moment).idealLambda(
+        signal, DenoiserSettings{}.gradient.deltaFloor, frame == plan_.moments[moment].first);
+    if (countOf(strata) == 0)
+        return;
     const Agreement agreement = compareWeights(lambda, ideal, strata);
     const Detection detection = detect(lambda, ideal, strata);
     addOfSignal(signal, "lambda_mean", agreement.mean);
@@ -205,9 +205,7 @@ void Meter::measureAlpha(int frame, const ControlImages& control, std::size_t si
     if (control.alpha.size().x == 0)
         return;
     const Truth& truth = truths_.at(frame);
-    const SignalTruth& own = truth.signals[signal];
-    const Image<float> ideal =
-        idealAlpha(control.history, own.luminance, own.variance, control.hasHistory);
+    const Image<float> ideal = truth.idealAlpha(signal, control.history, control.hasHistory);
     const Mask counts = both(control.hasHistory, truth.foreground);
     if (countOf(counts) > 0) {
         const Agreement agreement = compareWeights(control.alpha, ideal, counts);
@@ -217,7 +215,7 @@ void Meter::measureAlpha(int frame, const ControlImages& control, std::size_t si
         addOfSignal(signal, "alpha_rmse", agreement.rmse);
     }
     addMap(signal, "alpha", control.alpha);
-    addMap(signal, "alpha_ideal", within(ideal, truth.foreground));
+    addMap(signal, "alpha_ideal", ideal);
 }
 
 } // namespace afterglow

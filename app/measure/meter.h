@@ -3,6 +3,7 @@
 #include "app/measure/metrics_table.h"
 #include "app/measure/response.h"
 #include "app/measure/truth.h"
+#include "renderer/image/flip.h"
 
 #include <deque>
 

@@ -18,15 +18,14 @@ void requireSizes(bool equal) {
 struct StratumSums {
     double change = 0.0, greater = 0.0; ///< now - before, and the greater of the two
     int pixels = 0;
-
-    bool isAbove(float floor) const { return greater > double(floor) * pixels; }
 };
 
 constexpr double kRight = 1e-4; ///< a history is right if it is off by less than this part of it
 
-template <class Visit>
-void forEachStratum(const Image<float>& now, const Image<float>& before, const Mask& counts,
-                    Visit visit) {
+} // namespace
+
+StrataTruth idealLambda(const Image<float>& now, const Image<float>& before, const Mask& counts,
+                        float floor) {
     requireSizes(now.size() == before.size() && now.size() == counts.size());
     Image<StratumSums> strata(strataOf(now.size()));
     for (int y = 0; y < now.size().y; ++y)
@@ -39,30 +38,15 @@ void forEachStratum(const Image<float>& now, const Image<float>& before, const M
             sums.greater += std::max(now(p), before(p));
             ++sums.pixels;
         }
-    for (int y = 0; y < strata.size().y; ++y)
-        for (int x = 0; x < strata.size().x; ++x)
-            visit(glm::ivec2(x, y), strata({x, y}));
-}
-
-} // namespace
-
-Image<float> idealLambda(const Image<float>& now, const Image<float>& before, const Mask& counts,
-                         float floor) {
-    Image<float> lambda(strataOf(now.size()));
-    forEachStratum(now, before, counts, [&](glm::ivec2 stratum, const StratumSums& sums) {
-        if (sums.isAbove(floor))
-            lambda(stratum) = float(std::min(1.0, std::abs(sums.change) / sums.greater));
-    });
-    return lambda;
-}
-
-Mask litStrata(const Image<float>& now, const Image<float>& before, const Mask& counts,
-               float floor) {
-    Mask lit(strataOf(now.size()));
-    forEachStratum(now, before, counts, [&](glm::ivec2 stratum, const StratumSums& sums) {
-        lit(stratum) = sums.isAbove(floor);
-    });
-    return lit;
+    StrataTruth truth{Image<float>(strata.size()), Mask(strata.size())};
+    for (std::size_t i = 0; i < strata.pixels().size(); ++i) {
+        const StratumSums& sums = strata.pixels()[i];
+        if (sums.greater > double(floor) * sums.pixels) {
+            truth.lit.pixels()[i] = 1;
+            truth.lambda.pixels()[i] = float(std::min(1.0, std::abs(sums.change) / sums.greater));
+        }
+    }
+    return truth;
 }
 
 Image<float> idealAlpha(const Image<float>& history, const Image<float>& truth,

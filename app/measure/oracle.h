@@ -9,13 +9,19 @@ namespace afterglow {
 // What the filter would do if it knew the truth. Everything is of the luminance of the demodulated
 // signal, which is what the filter sees.
 
-/// lambda* per stratum of 3x3 pixels: |sum E f_i - sum E f_{i-1}| / sum max(E f_i, E f_{i-1}) over
-/// the stratum's pixels that count, or 0 where the mean of the maxima is not above `floor`. `now`
-/// and `before` are converged images of the same surfaces, those of frame i, in the light of frame
-/// i and of frame i - 1. So no surface has to be found again between two images, and where nothing
-/// changed the two are equal and lambda* is exactly 0.
-Image<float> idealLambda(const Image<float>& now, const Image<float>& before, const Mask& counts,
-                         float floor);
+/// lambda* per stratum of 3x3 pixels.
+struct StrataTruth {
+    Image<float> lambda;
+    Mask lit; ///< strata with so much light now or before that lambda means something
+};
+
+/// lambda* is |sum E f_i - sum E f_{i-1}| / sum max(E f_i, E f_{i-1}) over the stratum's pixels
+/// that count, or 0 where the stratum is not lit: the mean of the maxima is not above `floor`.
+/// `now` and `before` are converged images of the same surfaces, those of frame i, in the light of
+/// frame i and of frame i - 1. So no surface has to be found again between two images, and where
+/// nothing changed the two are equal and lambda* is exactly 0.
+StrataTruth idealLambda(const Image<float>& now, const Image<float>& before, const Mask& counts,
+                        float floor);
 
 /// alpha* = e^2 / (e^2 + s^2): the weight of the newest sample that leaves the least expected
 /// error, where e is the error that the history has and s^2 the variance of a new sample. 0 where
@@ -35,11 +41,6 @@ Agreement compareWeights(const Image<float>& weight, const Image<float>& ideal, 
 
 /// Strata at which at least this much of the light changes are "changed", in lambda and lambda*.
 inline constexpr float kChanged = 0.1f;
-
-/// The strata at which there is light in `now` or `before`, so that lambda means something: the
-/// mean of the greater of the two is above `floor`.
-Mask litStrata(const Image<float>& now, const Image<float>& before, const Mask& counts,
-               float floor);
 
 /// lambda as a detector of change.
 struct Detection {

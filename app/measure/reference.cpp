@@ -2,6 +2,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/log.h"
+#include "renderer/gl/errors.h"
 #include "renderer/image/color.h"
 
 #include <algorithm>
@@ -22,41 +23,12 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Adds samples to the renderer's reference, counts their rays and tells of them.
-class Sampling {
-public:
-    Sampling(Renderer& renderer, const std::function<void(int)>& advanced)
-        : renderer_(renderer), advanced_(advanced) {
-        // The device counts in 32 bits over the whole image, and a pixel has at most two rays.
-        const auto pixels = std::uint64_t(renderer.size().x) * std::uint64_t(renderer.size().y);
-        portions_ = SamplePortions(
-            int(std::clamp<std::uint64_t>((~0u) / (2 * pixels), 1, std::uint64_t(1) << 16)));
-    }
-
-    void addUpTo(int target) {
-        while (done_ < target) {
-            const auto start = Clock::now();
-            const int portion = std::min(portions_.next(), target - done_);
-            renderer_.addReferenceSamples(portion);
-            done_ += portion;
-            const auto now = std::uint32_t(renderer_.readStats().rays); // waits for the device
-            portions_.took(portion, millisecondsSince(start));
-            rays_ += std::uint32_t(now - counted_);
-            counted_ = now;
-            if (advanced_)
-                advanced_(portion);
-        }
-    }
-    std::uint64_t rays() const { return rays_; }
-
-private:
-    Renderer& renderer_;
-    const std::function<void(int)>& advanced_;
-    SamplePortions portions_{1};
-    int done_ = 0;
-    std::uint32_t counted_ = 0;
-    std::uint64_t rays_ = 0;
-};
+/// The samples of one portion that the device can count the rays of: in 32 bits over the whole
+/// image, where a pixel has at most two.
+int mostSamples(glm::ivec2 size) {
+    const auto pixels = std::uint64_t(size.x) * std::uint64_t(size.y);
+    return int(std::clamp<std::uint64_t>((~0u) / (2 * pixels), 1, std::uint64_t(1) << 16));
+}
 
 /// The error of the mean of n samples, from how far the mean of the first m = n / 2 is from it.
 /// mean(n) - mean(m) = (1 - m/n) (mean of the rest - mean(m)), whose variance is s^2 (1/m - 1/n);
@@ -78,9 +50,16 @@ std::size_t bytesOf(const Reference& reference) {
 
 } // namespace
 
+int SamplePortions::next(double milliseconds) const {
+    if (last_ == 0)
+        return 1;
+    const double fitting = each_ > 0.0 ? milliseconds / each_ : most_;
+    return int(std::clamp(fitting, 1.0, double(std::min(2 * last_, most_))));
+}
+
 void SamplePortions::took(int samples, double milliseconds) {
-    const double fitting = milliseconds > 0.0 ? samples * kMilliseconds / milliseconds : most_;
-    next_ = int(std::clamp(fitting, 1.0, double(std::min(2 * next_, most_))));
+    last_ = samples;
+    each_ = milliseconds / samples;
 }
 
 Mask foregroundOf(const Renderer& renderer) {
@@ -107,35 +86,6 @@ Image<glm::vec4> litRadiance(const Renderer& renderer, std::size_t state) {
     return lit;
 }
 
-Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
-                   const Settings& settings, int samples,
-                   const std::function<void(int)>& advanced) {
-    if (samples < 1)
-        throw std::logic_error("a reference needs at least one sample");
-    Reference reference;
-    reference.samples = samples;
-    const auto start = Clock::now();
-    renderer.beginReference(seen, world, settings);
-    Sampling sampling(renderer, advanced);
-    Image<glm::vec4> half;
-    if (samples > 1) {
-        sampling.addUpTo(samples / 2);
-        renderer.finishReference();
-        half = litRadiance(renderer);
-    }
-    sampling.addUpTo(samples);
-    renderer.finishReference();
-    glFinish();
-    reference.milliseconds = millisecondsSince(start);
-    reference.rays = sampling.rays();
-    for (std::size_t signal = 0; signal < renderer.signals().size(); ++signal)
-        reference.signals.push_back(renderer.filteredSignal(0, signal).read<glm::vec4>());
-    const Mask foreground = foregroundOf(renderer);
-    if (samples > 1 && countOf(foreground) > 0)
-        reference.residual = residualOf(rmse(half, litRadiance(renderer), &foreground), samples);
-    return reference;
-}
-
 ReferenceStore::ReferenceStore(ReferenceMaker maker, std::optional<ReferenceCache> cache)
     : maker_(std::move(maker)), cache_(std::move(cache)) {}
 
@@ -150,27 +100,7 @@ ReferenceStore ReferenceStore::withDefaultCache(ReferenceMaker maker) {
     return store;
 }
 
-Reference ReferenceStore::get(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
-                              const Settings& settings, int samples,
-                              const std::function<void(int)>& advanced) {
-    const ReferenceRequest request{renderer.scene(), renderer.size(), seen, world,
-                                   settings,         samples};
-    const std::string key = referenceKey(request, maker_);
-    if (std::optional<Reference> known = recall(key)) {
-        renderer.beginReference(seen, settings);
-        renderer.showReference(known->signals, settings);
-        if (advanced)
-            advanced(samples);
-        return *std::move(known);
-    }
-    Reference reference = converge(renderer, seen, world, settings, samples, advanced);
-    ++counts_.converged;
-    writeCache(key, reference, request);
-    keep(key, reference);
-    return reference;
-}
-
-std::optional<Reference> ReferenceStore::recall(const std::string& key) {
+std::optional<Reference> ReferenceStore::find(const std::string& key) {
     const auto kept = std::ranges::find(kept_, key, &Kept::key);
     if (kept != kept_.end()) {
         kept_.splice(kept_.begin(), kept_, kept);
@@ -185,6 +115,15 @@ std::optional<Reference> ReferenceStore::recall(const std::string& key) {
         keep(key, *found);
     }
     return found;
+}
+
+void ReferenceStore::add(const std::string& key, const Reference& reference,
+                         const ReferenceRequest& request) {
+    ++counts_.converged;
+    if (hasContextFailed())
+        return;
+    writeCache(key, reference, request);
+    keep(key, reference);
 }
 
 void ReferenceStore::keep(const std::string& key, const Reference& reference) {
@@ -208,6 +147,77 @@ void ReferenceStore::writeCache(const std::string& key, const Reference& referen
         log(LogLevel::Warning, std::string("references are no longer kept: ") + error.what());
         cache_.reset();
     }
+}
+
+ReferenceTask::ReferenceTask(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                             const FrameSettings& settings, int samples, ReferenceStore* store)
+    : renderer_(renderer), request_{renderer.scene(), renderer.size(), seen, world,
+                                    settings,         samples},
+      store_(store), portions_(mostSamples(renderer.size())) {
+    if (samples < 1)
+        throw std::logic_error("a reference needs at least one sample");
+    if (store) {
+        key_ = referenceKey(request_, store->maker());
+        if (std::optional<Reference> known = store->find(key_)) {
+            reference_ = *std::move(known);
+            renderer.beginReference(seen, settings);
+            renderer.showReference(reference_.signals, settings);
+            return;
+        }
+    }
+    reference_.samples = samples;
+    const auto start = Clock::now();
+    renderer.beginReference(seen, world, settings);
+    reference_.milliseconds = millisecondsSince(start);
+}
+
+int ReferenceTask::advance(double milliseconds) {
+    const int samples = request_.samples, half = samples / 2;
+    if (reference_.cached)
+        return samples - std::exchange(done_, samples);
+    const int target = done_ < half ? half : samples;
+    const int portion = std::min(portions_.next(milliseconds), target - done_);
+    if (portion == 0)
+        return 0;
+    const auto start = Clock::now();
+    renderer_.addReferenceSamples(portion);
+    const auto rays = std::uint32_t(renderer_.readStats().rays); // waits for the device
+    portions_.took(portion, millisecondsSince(start));
+    reference_.rays += std::uint32_t(rays - std::exchange(counted_, rays));
+    done_ += portion;
+    if (done_ == target) {
+        renderer_.finishReference();
+        glFinish();
+    }
+    reference_.milliseconds += millisecondsSince(start);
+    if (isDone())
+        finish();
+    else if (done_ == half)
+        half_ = litRadiance(renderer_);
+    return portion;
+}
+
+void ReferenceTask::finish() {
+    for (std::size_t signal = 0; signal < renderer_.signals().size(); ++signal)
+        reference_.signals.push_back(renderer_.filteredSignal(0, signal).read<glm::vec4>());
+    const Mask foreground = foregroundOf(renderer_);
+    if (half_.size().x > 0 && countOf(foreground) > 0)
+        reference_.residual =
+            residualOf(rmse(half_, litRadiance(renderer_), &foreground), request_.samples);
+    if (store_)
+        store_->add(key_, reference_, request_);
+}
+
+Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                   const FrameSettings& settings, int samples,
+                   const std::function<void(int)>& advanced, ReferenceStore* store) {
+    ReferenceTask task(renderer, seen, world, settings, samples, store);
+    while (!task.isDone()) {
+        const int portion = task.advance(kPortionMilliseconds);
+        if (advanced)
+            advanced(portion);
+    }
+    return task.result();
 }
 
 } // namespace afterglow

@@ -27,24 +27,17 @@ constexpr std::uint32_t referenceSeed(std::uint32_t seed) {
 /// first portion is one sample, and the time of each portion sets the length of the next one.
 class SamplePortions {
 public:
-    static constexpr double kMilliseconds = 50.0; ///< that a portion is to take
-
     /// `most`: samples that a portion has at most, from 1 to 2^16.
     explicit SamplePortions(int most) : most_(most) {}
 
-    int next() const { return next_; } ///< at least 1; at most twice the one before
-    void took(int samples, double milliseconds);
+    /// Returns the samples that take about so long: at least 1, at most twice the last portion.
+    int next(double milliseconds) const;
+    void took(int samples, double milliseconds); ///< notes the last portion
 
 private:
-    int next_ = 1, most_;
+    int most_, last_ = 0;
+    double each_ = 0.0; ///< milliseconds a sample, of late
 };
-
-/// Averages so many samples a pixel, at least 1, of the surfaces of `seen` in the light of `world`:
-/// see Renderer::beginReference(). Afterwards the renderer shows it; its histories are void.
-/// `advanced` is told of every portion of samples as it is done.
-Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
-                   const Settings& settings, int samples,
-                   const std::function<void(int)>& advanced = {});
 
 /// References, each converged once: those of this run are kept in memory as far as there is room,
 /// and all in the cache, if there is one.
@@ -55,16 +48,12 @@ public:
     /// is all.
     static ReferenceStore withDefaultCache(ReferenceMaker maker);
 
-    /// The surfaces of `seen` in the light of `world`; see Renderer::beginReference(). `samples` a
-    /// pixel, at least 1. Afterwards the renderer shows it, and holds guides, albedo and emission
-    /// of `seen`; histories are void. `advanced` is told of every portion of samples as it is done,
-    /// and at once of all that need not be done.
-    ///
-    /// Error, naming the file, if the cache cannot be written; with the default cache a warning,
-    /// and no more writing.
-    Reference get(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
-                  const Settings& settings, int samples,
-                  const std::function<void(int)>& advanced = {});
+    /// A reference that is there already.
+    std::optional<Reference> find(const std::string& key);
+    /// Keeps a reference that was converged, unless OpenGL has failed in this context. Error,
+    /// naming the file, if the cache cannot be written; with the default cache a warning, and no
+    /// more writing.
+    void add(const std::string& key, const Reference& reference, const ReferenceRequest& request);
 
     struct Counts {
         int converged = 0, fromMemory = 0, fromCache = 0;
@@ -78,7 +67,6 @@ private:
         std::string key;
         Reference reference;
     };
-    std::optional<Reference> recall(const std::string& key);
     void keep(const std::string& key, const Reference& reference);
     void writeCache(const std::string& key, const Reference& reference,
                     const ReferenceRequest& request);
@@ -90,5 +78,43 @@ private:
     std::size_t keptBytes_ = 0;
     Counts counts_;
 };
+
+/// A reference in the making, portion by portion; its bits do not depend on the portions. In the
+/// end the renderer shows it, and holds guides, albedo and emission of what is seen; histories are
+/// void. Nothing else may render in between.
+class ReferenceTask {
+public:
+    /// The surfaces of `seen` in the light of `world`: see Renderer::beginReference(). The lights
+    /// of both, the renderer and the store must outlive it. Without a store it is always converged.
+    ReferenceTask(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                  const FrameSettings& settings, int samples, ReferenceStore* store = nullptr);
+
+    /// Traces one portion, which takes about so long, of one sample at least. Returns the samples a
+    /// pixel that are there since: at once all of a reference that the store has.
+    int advance(double milliseconds);
+    bool isDone() const { return done_ == request_.samples; }
+    const Reference& result() const { return reference_; } ///< once it is done
+
+private:
+    void finish();
+
+    Renderer& renderer_;
+    ReferenceRequest request_;
+    ReferenceStore* store_;
+    std::string key_; ///< in the store
+    SamplePortions portions_;
+    int done_ = 0;              ///< samples
+    std::uint32_t counted_ = 0; ///< rays, as the device counts
+    Image<glm::vec4> half_;     ///< after the first half of the samples
+    Reference reference_;
+};
+
+/// Does a task at one go. `advanced` is told of every portion of samples as it is done.
+Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
+                   const FrameSettings& settings, int samples,
+                   const std::function<void(int)>& advanced = {}, ReferenceStore* store = nullptr);
+
+/// The milliseconds that a portion takes where nobody waits in between.
+inline constexpr double kPortionMilliseconds = 50.0;
 
 } // namespace afterglow

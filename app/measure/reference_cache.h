@@ -28,14 +28,15 @@ struct Reference {
     bool cached = false;       ///< it was there already
 };
 
-/// What a reference is asked for with. It lives as long as what it refers to.
+/// Everything that a reference is made from. The scene and the lights of both frames must outlive
+/// it.
 struct ReferenceRequest {
     const Scene& scene;
     glm::ivec2 size;
-    const FrameInput& seen;  ///< whose surfaces; see Renderer::beginReference()
-    const FrameInput& world; ///< in whose light
-    const Settings& settings;
-    int samples;
+    FrameInput seen;  ///< whose surfaces; see Renderer::beginReference()
+    FrameInput world; ///< in whose light
+    FrameSettings settings;
+    int samples; ///< a pixel, at least 1
 };
 
 /// What makes references: two that differ may make other bits from the same request.

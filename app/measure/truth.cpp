@@ -1,32 +1,82 @@
 #include "app/measure/truth.h"
 
-#include "app/measure/oracle.h"
-#include "renderer/image/color.h"
+#include "app/scenario/frame_change.h"
 
 #include <algorithm>
 #include <set>
 
 namespace afterglow {
 
-Truths::Truths(const Experiment& experiment, const RunPlan& plan)
-    : experiment_(experiment), plan_(plan), truths_(plan.moments.size()) {}
+StrataTruth Truth::idealLambda(std::size_t signal, float floor, bool isFirst) const {
+    const SignalTruth& own = signals.at(signal);
+    const bool changed = isFirst && own.before.size().x > 0;
+    return afterglow::idealLambda(own.luminance, changed ? own.before : own.luminance, foreground,
+                                  floor);
+}
 
-FrameInput Truths::input(int frame, const Moment& moment, std::uint32_t seed) const {
-    const double seconds = experiment_.seconds(frame);
-    return {.camera = cameraAt(plan_.scene, poseAt(plan_.scene, seconds)),
+Image<float> Truth::idealAlpha(std::size_t signal, const Image<float>& history,
+                               const Mask& hasHistory) const {
+    const SignalTruth& own = signals.at(signal);
+    return within(afterglow::idealAlpha(history, own.luminance, own.variance, hasHistory),
+                  foreground);
+}
+
+GroundTruth::GroundTruth(Renderer& renderer, const Request& request, ReferenceStore* store)
+    : renderer_(renderer), request_(request), store_(store),
+      changed_(request.before &&
+               lightOrGeometryDiffers(renderer.scene(), request.now, *request.before)),
+      total_(changed_ ? 2 * request.samples : request.samples) {
+    request_.now.seed = referenceSeed(request.now.seed);
+    startOn(request_.now);
+}
+
+void GroundTruth::startOn(const FrameInput& world) {
+    task_.emplace(renderer_, request_.now, world, request_.settings, request_.samples, store_);
+}
+
+int GroundTruth::advance(double milliseconds) {
+    if (!task_)
+        return 0;
+    const int samples = task_->advance(milliseconds);
+    done_ += samples;
+    if (!task_->isDone())
+        return samples;
+    const bool isOfNow = truth_.signals.empty();
+    if (isOfNow)
+        keepNow();
+    else
+        for (std::size_t i = 0; i < truth_.signals.size(); ++i)
+            truth_.signals[i].before = luminanceOf(task_->result().signals[i]);
+    // Light and shadow on these surfaces do not depend on the camera: if it alone has moved, they
+    // reflected just the same one frame ago.
+    if (isOfNow && changed_)
+        startOn(*request_.before);
+    else
+        task_.reset();
+    return samples;
+}
+
+void GroundTruth::keepNow() {
+    truth_.lit = litRadiance(renderer_);
+    truth_.display = renderer_.display().read<glm::u8vec4>();
+    truth_.foreground = foregroundOf(renderer_);
+    truth_.residual = task_->result().residual;
+    truth_.milliseconds = task_->result().milliseconds;
+    for (const Image<glm::vec4>& signal : task_->result().signals)
+        truth_.signals.push_back({luminanceOf(signal), channelOf(signal, 3)});
+}
+
+FrameInput inputAt(const Experiment& experiment, const RunPlan& plan, int frame) {
+    const double seconds = experiment.seconds(frame);
+    return {.camera = cameraAt(plan.scene, poseAt(plan.scene, seconds)),
             .seconds = seconds,
             .frame = std::uint32_t(frame),
-            .seed = seed,
-            .lights = moment.lights};
+            .seed = experiment.seed,
+            .lights = plan.moments[momentAt(plan.moments, frame)].lights};
 }
 
-FrameInput Truths::inputAt(int frame) const {
-    return input(frame, plan_.moments[momentAt(plan_.moments, frame)], experiment_.seed);
-}
-
-FrameInput Truths::referenceInput(const Moment& moment) const {
-    return input(moment.first, moment, referenceSeed(experiment_.seed));
-}
+Truths::Truths(const Experiment& experiment, const RunPlan& plan)
+    : experiment_(experiment), plan_(plan), truths_(plan.moments.size()) {}
 
 std::vector<std::size_t> Truths::neededFor(FrameRange range) const {
     const std::vector<Moment>& moments = plan_.moments;
@@ -49,7 +99,8 @@ int Truths::countFor(FrameRange range) const {
     int count = 0;
     for (const std::size_t i : neededFor(range)) {
         const Moment& moment = plan_.moments[i];
-        count += 1 + int(i > 0 && moment.worldMoved && range.contains(moment.first));
+        const bool changed = moment.lightsChanged || moment.worldMoved;
+        count += 1 + int(changed && range.contains(moment.first));
     }
     return count;
 }
@@ -58,52 +109,18 @@ void Truths::make(Renderer& renderer, ReferenceStore& store, FrameRange range,
                   const std::function<void(int)>& advanced) {
     Settings settings;
     settings.lighting.signal = int(experiment_.signal);
-    const float floor = settings.denoiser.gradient.deltaFloor;
     for (const std::size_t i : neededFor(range)) {
-        const Moment& moment = plan_.moments[i];
-        if (!truths_[i]) {
-            const FrameInput input = referenceInput(moment);
-            const Reference reference =
-                store.get(renderer, input, input, settings, experiment_.referenceSamples, advanced);
-            Truth truth;
-            truth.display = renderer.showReference(reference.signals, settings).read<glm::u8vec4>();
-            truth.foreground = foregroundOf(renderer);
-            truth.lit = litRadiance(renderer);
-            truth.residual = reference.residual;
-            truth.milliseconds = reference.milliseconds;
-            for (const Image<glm::vec4>& signal : reference.signals) {
-                SignalTruth& own = truth.signals.emplace_back();
-                own.luminance = luminanceOf(signal);
-                own.variance = channelOf(signal, 3);
-                own.litLater = litStrata(own.luminance, own.luminance, truth.foreground, floor);
-            }
-            truths_[i] = std::move(truth);
-        }
-        Truth& truth = *truths_[i];
-        if (truth.knowsChange || !range.contains(moment.first))
-            continue;
-        truth.knowsChange = true;
-        // What these surfaces reflected one frame ago. Light and shadow on them do not depend on
-        // the camera, so if it alone has moved they reflected just the same.
-        std::vector<Image<float>> before;
-        if (i > 0 && (moment.lightsChanged || moment.worldMoved)) {
-            FrameInput world = referenceInput(plan_.moments[i - 1]);
-            world.seconds = experiment_.seconds(moment.first - 1);
-            for (const Image<glm::vec4>& signal :
-                 store
-                     .get(renderer, referenceInput(moment), world, settings,
-                          experiment_.referenceSamples, advanced)
-                     .signals)
-                before.push_back(luminanceOf(signal));
-        } else {
-            for (const SignalTruth& signal : truth.signals)
-                before.push_back(signal.luminance);
-        }
-        for (std::size_t s = 0; s < truth.signals.size(); ++s) {
-            SignalTruth& own = truth.signals[s];
-            own.idealLambda = idealLambda(own.luminance, before[s], truth.foreground, floor);
-            own.litFirst = litStrata(own.luminance, before[s], truth.foreground, floor);
-        }
+        const int first = plan_.moments[i].first;
+        GroundTruth::Request request{.now = inputAt(experiment_, plan_, first),
+                                     .before = {},
+                                     .settings = settings,
+                                     .samples = experiment_.referenceSamples};
+        if (first > 0 && range.contains(first))
+            request.before = inputAt(experiment_, plan_, first - 1);
+        GroundTruth truth(renderer, request, &store);
+        while (!truth.isDone())
+            advanced(truth.advance(kPortionMilliseconds));
+        truths_[i] = truth.take();
     }
 }
 

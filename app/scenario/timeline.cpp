@@ -1,5 +1,7 @@
 #include "app/scenario/timeline.h"
 
+#include "app/scenario/frame_change.h"
+
 #include "renderer/base/error.h"
 #include "renderer/base/names.h"
 
@@ -123,9 +125,6 @@ std::vector<Moment> momentsOf(const Timeline& timeline, const Scene& staged, dou
             lights.push_back(settings.of(light.name));
         return lights;
     };
-    std::vector<bool> isSeen(staged.nodes.size()); // moves something that is lit or casts a shadow
-    for (const Instance& instance : staged.instances)
-        isSeen[instance.node] = true;
     const std::size_t cameraNode = staged.cameras.at(0).node;
 
     std::vector<Moment> moments;
@@ -135,10 +134,8 @@ std::vector<Moment> momentsOf(const Timeline& timeline, const Scene& staged, dou
         next.lights = lightsAt(frame);
         const Pose pose = poseAt(staged, next.seconds);
         if (frame > 0) {
-            next.lightsChanged = next.lights != moments.back().lights;
-            for (std::size_t i = 0; i < isSeen.size(); ++i)
-                if (isSeen[i] && pose.worldFromNode[i] != before.worldFromNode[i])
-                    next.worldMoved = true;
+            next.lightsChanged = lightsDiffer(staged, next.lights, moments.back().lights);
+            next.worldMoved = geometryDiffers(staged, pose, before);
             next.cameraMoved = pose.worldFromNode[cameraNode] != before.worldFromNode[cameraNode];
         }
         before = pose;

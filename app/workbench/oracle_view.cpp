@@ -1,22 +1,13 @@
 #include "app/workbench/oracle_view.h"
 
 #include "app/measure/meter.h"
-#include "app/measure/oracle.h"
-#include "app/measure/reference.h"
-#include "renderer/image/color.h"
+#include "app/measure/truth.h"
 
-#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
 namespace afterglow {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// a - b where the mask counts, else 0.
 Image<float> difference(const Image<float>& a, const Image<float>& b, const Mask& counts) {
@@ -27,18 +18,19 @@ Image<float> difference(const Image<float>& a, const Image<float>& b, const Mask
     return result;
 }
 
+GpuTexture textureOf(const Image<float>& values) {
+    GpuTexture texture("oracle", PixelFormat::R32F, values.size());
+    texture.write(values);
+    return texture;
+}
+
 /// The result of one filter for the frozen frame, and the images made from it.
 struct FrozenFilter {
     FrameImages images;
     float deltaFloor = 0.0f;
-    std::optional<double> rmse;
+    std::optional<double> rmse{};
     /// By signal; empty until they are asked for.
-    std::array<std::array<GpuTexture, kOracleImages>, kMaxSignals> textures;
-};
-
-/// The references of one signal: of the frozen frame and of the frame before.
-struct FrozenSignal {
-    Image<float> now, before, variance;
+    std::array<std::array<GpuTexture, kOracleImages>, kMaxSignals> textures{};
 };
 
 } // namespace
@@ -50,112 +42,18 @@ struct OracleView::Impl {
     GlInfo gl;
 
     std::optional<Moment> moment;
-    FrameSettings settings;
     int samples = 0;
     std::array<std::optional<FrozenFilter>, kFilterStates> filters;
-
     // While it converges.
     std::optional<Renderer> renderer;
-    bool converged = false;
-    bool changed = false; ///< so the light of the frame before is another reference
-    bool atBefore = false;
-    int done = 0;                       ///< samples of the reference that is being traced
-    double millisecondsPerSample = 0.0; ///< of late; 0: not known yet
-
+    std::optional<GroundTruth> making;
     // Once it is there.
-    Image<glm::vec4> lit;
-    std::vector<FrozenSignal> signals;
-    Mask foreground;
-    GpuTexture picture;
+    std::optional<Truth> truth;
+    GpuTexture reference;
 
-    FrameInput inputOf(const FrameMoment& of) const {
-        return {.camera = moment->now.camera,
-                .seconds = of.seconds,
-                .frame = 0,
-                .seed = referenceSeed(moment->seed),
-                .lights = of.lights};
-    }
-    int total() const { return changed ? 2 * samples : samples; }
-    int traced() const { return atBefore ? samples + done : done; }
-
-    bool hasChanged(const Scene& scene) const;
-    void start(const FrameInput& world);
-    void addFor(double milliseconds);
-    void finishOne();
-    void keepNow();
     bool has(OracleImage image, const ControlImages& control) const;
     Image<float> make(OracleImage image, const FrozenFilter& filter, std::size_t signal) const;
-    Image<float> idealAlphaOf(const FrozenFilter& filter, std::size_t signal) const;
 };
-
-// Whether light or geometry of the frame before differ.
-bool OracleView::Impl::hasChanged(const Scene& scene) const {
-    if (!moment->before)
-        return false;
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const auto scaleIn = [&](const std::vector<LightState>& lights) {
-            return i < lights.size() ? lights[i].scale() : glm::vec3(1.0f);
-        };
-        if (scaleIn(moment->now.lights) != scaleIn(moment->before->lights))
-            return true;
-    }
-    if (moment->now.seconds == moment->before->seconds)
-        return false;
-    const Pose a = poseAt(scene, moment->now.seconds), b = poseAt(scene, moment->before->seconds);
-    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
-        return a.worldFromNode[instance.node] != b.worldFromNode[instance.node];
-    });
-}
-
-void OracleView::Impl::start(const FrameInput& world) {
-    done = 0;
-    renderer->beginReference(inputOf(moment->now), world, settings);
-}
-
-// Portions as large as the last ones say that there is time for.
-void OracleView::Impl::addFor(double milliseconds) {
-    const auto begin = Clock::now();
-    double left = milliseconds;
-    do {
-        const double fit = millisecondsPerSample > 0.0 ? left / millisecondsPerSample : 1.0;
-        const int portion = int(std::clamp(fit, 1.0, double(samples - done)));
-        const auto start = Clock::now();
-        renderer->addReferenceSamples(portion);
-        glFinish();
-        done += portion;
-        millisecondsPerSample = millisecondsSince(start) / portion;
-        left = milliseconds - millisecondsSince(begin);
-    } while (done < samples && left > millisecondsPerSample);
-}
-
-void OracleView::Impl::keepNow() {
-    signals.clear();
-    for (std::size_t i = 0; i < renderer->signals().size(); ++i) {
-        const auto signal = renderer->filteredSignal(0, i).read<glm::vec4>();
-        signals.push_back({luminanceOf(signal), {}, channelOf(signal, 3)});
-    }
-    lit = litRadiance(*renderer);
-    foreground = foregroundOf(*renderer);
-    picture = renderer->targets().filters[0].composed.copy();
-}
-
-// The reference that was being traced has all its samples.
-void OracleView::Impl::finishOne() {
-    renderer->finishReference();
-    if (!atBefore) {
-        keepNow();
-        if (changed) {
-            atBefore = true;
-            start(inputOf(*moment->before));
-            return;
-        }
-    }
-    for (std::size_t i = 0; i < signals.size(); ++i)
-        signals[i].before = atBefore ? luminanceOf(renderer->filteredSignal(0, i).read<glm::vec4>())
-                                     : signals[i].now;
-    converged = true;
-    renderer.reset(); // its images are many
-}
 
 OracleView::OracleView(ShaderLibrary& shaders, const GlInfo& gl)
     : impl_(std::make_unique<Impl>(shaders, gl)) {}
@@ -166,40 +64,54 @@ void OracleView::begin(const Renderer& watched, Moment moment, const FrameSettin
     end();
     Impl& self = *impl_;
     bool any = false;
-    for (std::size_t state = 0; state < kFilterStates; ++state) {
-        const RanFilter* const ran = watched.ran(state);
-        if (!ran)
-            continue;
-        any = true;
-        self.filters[state] = {.images = readFrame(watched, true, state),
-                               .deltaFloor = ran->settings.denoiser.gradient.deltaFloor,
-                               .rmse = {},
-                               .textures = {}};
-    }
+    for (std::size_t state = 0; state < kFilterStates; ++state)
+        if (const RanFilter* const ran = watched.ran(state)) {
+            any = true;
+            self.filters[state].emplace(readFrame(watched, true, state),
+                                        ran->settings.denoiser.gradient.deltaFloor);
+        }
     if (samples < 1 || !any)
         throw std::logic_error("an oracle needs a sample, and a filter that has run");
     self.moment = std::move(moment);
-    self.settings = settings;
     self.samples = samples;
-    self.changed = self.hasChanged(watched.scene());
     self.renderer.emplace(self.shaders, self.gl);
     self.renderer->setScene(watched.scene());
     self.renderer->resize(watched.size());
-    self.start(self.inputOf(self.moment->now));
+    const auto inputOf = [&](const FrameMoment& frame) {
+        return FrameInput{.camera = frame.camera,
+                          .seconds = frame.seconds,
+                          .frame = 0,
+                          .seed = self.moment->seed,
+                          .lights = frame.lights};
+    };
+    GroundTruth::Request request{
+        .now = inputOf(self.moment->now), .before = {}, .settings = settings, .samples = samples};
+    if (self.moment->before)
+        request.before = inputOf(*self.moment->before);
+    // No store: a camera that is flown by hand hardly returns to the same bits, and shaders may be
+    // edited while the window is open.
+    self.making.emplace(*self.renderer, request);
 }
 
 bool OracleView::advance(double milliseconds) {
+    using Clock = std::chrono::steady_clock;
     Impl& self = *impl_;
-    if (!self.moment || self.converged)
+    if (!self.making)
         return false;
-    const auto start = Clock::now();
+    const auto end = Clock::now() + std::chrono::duration<double, std::milli>(milliseconds);
+    double left = milliseconds;
     do {
-        self.addFor(milliseconds - millisecondsSince(start));
-        if (self.done == self.samples)
-            self.finishOne();
-    } while (!self.converged &&
-             millisecondsSince(start) + self.millisecondsPerSample < milliseconds);
-    return self.converged;
+        self.making->advance(left);
+        left = std::chrono::duration<double, std::milli>(end - Clock::now()).count();
+    } while (!self.making->isDone() && left > 0.5 * milliseconds);
+    if (!self.making->isDone())
+        return false;
+    self.truth = self.making->take();
+    self.reference = GpuTexture("reference", PixelFormat::RGBA32F, self.truth->lit.size());
+    self.reference.write(self.truth->lit);
+    self.making.reset();
+    self.renderer.reset(); // its images are many
+    return true;
 }
 
 void OracleView::end() {
@@ -210,22 +122,13 @@ bool OracleView::isActive() const {
     return impl_->moment.has_value();
 }
 bool OracleView::isDone() const {
-    return impl_->converged;
+    return impl_->truth.has_value();
 }
 int OracleView::samples() const {
     return impl_->samples;
 }
 double OracleView::progress() const {
-    if (!isActive())
-        return 0.0;
-    return isDone() ? 1.0 : double(impl_->traced()) / impl_->total();
-}
-
-Image<float> OracleView::Impl::idealAlphaOf(const FrozenFilter& filter, std::size_t signal) const {
-    const ControlImages& control = filter.images.control.at(signal);
-    const FrozenSignal& truth = signals.at(signal);
-    return within(idealAlpha(control.history, truth.now, truth.variance, control.hasHistory),
-                  foreground);
+    return isDone() ? 1.0 : isActive() ? impl_->making->progress() : 0.0;
 }
 
 bool OracleView::Impl::has(OracleImage image, const ControlImages& control) const {
@@ -242,21 +145,22 @@ bool OracleView::Impl::has(OracleImage image, const ControlImages& control) cons
 
 Image<float> OracleView::Impl::make(OracleImage image, const FrozenFilter& filter,
                                     std::size_t signal) const {
-    const FrameImages& frozen = filter.images;
-    const ControlImages& control = frozen.control.at(signal);
-    const auto& [now, before, variance] = signals.at(signal);
-    const float floor = filter.deltaFloor;
+    const ControlImages& control = filter.images.control.at(signal);
+    const auto alpha = [&] {
+        return truth->idealAlpha(signal, control.history, control.hasHistory);
+    };
     switch (image) {
     case OracleImage::Error:
-        return difference(luminanceOf(frozen.lit), luminanceOf(lit), foreground);
-    case OracleImage::Lambda: return idealLambda(now, before, foreground, floor);
-    case OracleImage::LambdaError:
-        return difference(control.lambda, idealLambda(now, before, foreground, floor),
-                          litStrata(now, before, foreground, floor));
-    case OracleImage::Alpha: return idealAlphaOf(filter, signal);
+        return difference(luminanceOf(filter.images.lit), luminanceOf(truth->lit),
+                          truth->foreground);
+    case OracleImage::Lambda: return truth->idealLambda(signal, filter.deltaFloor).lambda;
+    case OracleImage::LambdaError: {
+        const StrataTruth ideal = truth->idealLambda(signal, filter.deltaFloor);
+        return difference(control.lambda, ideal.lambda, ideal.lit);
+    }
+    case OracleImage::Alpha: return alpha();
     case OracleImage::AlphaError:
-        return difference(control.alpha, idealAlphaOf(filter, signal),
-                          both(control.hasHistory, foreground));
+        return difference(control.alpha, alpha(), both(control.hasHistory, truth->foreground));
     case OracleImage::Reference: break;
     }
     throw std::logic_error("the reference is no image of numbers");
@@ -264,30 +168,28 @@ Image<float> OracleView::Impl::make(OracleImage image, const FrozenFilter& filte
 
 const GpuTexture* OracleView::image(OracleImage image, std::size_t state, std::size_t signal) {
     Impl& self = *impl_;
-    if (!self.converged)
+    if (!self.truth)
         return nullptr;
     if (image == OracleImage::Reference)
-        return &self.picture;
+        return &self.reference;
     std::optional<FrozenFilter>& filter = self.filters.at(state);
-    if (!filter || signal >= self.signals.size() ||
+    if (!filter || signal >= self.truth->signals.size() ||
         !self.has(image, filter->images.control.at(signal)))
         return nullptr;
     GpuTexture& texture = filter->textures[signal][std::size_t(image)];
-    if (texture.size().x == 0) {
-        const Image<float> values = self.make(image, *filter, signal);
-        texture = GpuTexture("oracle", PixelFormat::R32F, values.size());
-        texture.write(values);
-    }
+    if (texture.size().x == 0)
+        texture = textureOf(self.make(image, *filter, signal));
     return &texture;
 }
 
 std::optional<double> OracleView::rmse(std::size_t state) {
     Impl& self = *impl_;
     std::optional<FrozenFilter>& filter = self.filters.at(state);
-    if (!self.converged || !filter || countOf(self.foreground) == 0)
+    if (!self.truth || !filter || countOf(self.truth->foreground) == 0)
         return {};
     if (!filter->rmse)
-        filter->rmse = afterglow::rmse(filter->images.lit, self.lit, &self.foreground);
+        filter->rmse =
+            afterglow::rmse(filter->images.lit, self.truth->lit, &self.truth->foreground);
     return filter->rmse;
 }
 

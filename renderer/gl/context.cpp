@@ -105,6 +105,7 @@ void initializeGl(GLADloadfunc load, std::string_view backend, bool debug) {
         throw ContextError("this driver offers " + shortVersion(text(GL_VERSION)) +
                            "; 4.5 is needed");
 
+    beginGlErrors();
     glEnable(GL_DEBUG_OUTPUT);
     GLint flags = 0;
     glGetIntegerv(GL_CONTEXT_FLAGS, &flags);

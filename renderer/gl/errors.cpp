@@ -17,6 +17,7 @@ struct Account {
     std::mutex mutex;
     int reported = 0, unreported = 0;
     int reportedAtSweep = 0;
+    int beforeContext = 0; ///< those of earlier contexts
     std::string first;
 };
 
@@ -77,6 +78,28 @@ std::string firstGlError() {
 
 void sweepGlErrors() {
     countTaken(takeErrors());
+}
+
+void requireNoGlErrors(int before) {
+    const int errors = glErrorCount() - before;
+    if (errors > 0)
+        throw Error("OpenGL failed " + std::to_string(errors) + (errors == 1 ? " time" : " times") +
+                    ", first with \"" + firstGlError() +
+                    "\": what was written may be wrong; delete it");
+}
+
+bool hasContextFailed() {
+    sweepGlErrors();
+    return glErrorCount() > account().beforeContext;
+}
+
+void requireSoundContext() {
+    sweepGlErrors();
+    requireNoGlErrors(account().beforeContext);
+}
+
+void beginGlErrors() {
+    account().beforeContext = glErrorCount();
 }
 
 void noteReportedGlError(std::string_view message) {

@@ -17,6 +17,17 @@ std::string firstGlError();
 /// not made for debugging may report nothing. For the end of a context's work.
 void sweepGlErrors();
 
+/// Throws Error if there have been errors since there were `before` of them: what was made in the
+/// meantime may look whole and be wrong.
+void requireNoGlErrors(int before);
+
+/// Returns whether OpenGL has failed since the current context was initialized, reported or not.
+bool hasContextFailed();
+/// Throws Error if it has.
+void requireSoundContext();
+
+/// For initializeGl(): a context begins.
+void beginGlErrors();
 /// For the callback of initializeGl(), on any thread.
 void noteReportedGlError(std::string_view message);
 

@@ -74,6 +74,25 @@ TEST_CASE("any error of OpenGL ends a command with exit code 1, reported or not"
     }
 }
 
+TEST_CASE("an experiment that is started again does over what OpenGL has failed at") {
+    releaseTestContext();
+    const ExpectGlMessages expected;
+    for (const HiddenContextFactory failing : {reportingContext, silentContext, lateContext}) {
+        const TemporaryFolder folder;
+        const std::string out = folder / "out", cache = folder / "cache";
+        const std::vector<const char*> command{
+            "experiment", "static",  "--size",      "16x9",     "--frames", "2",     "--spp",
+            "8",          "--cache", cache.c_str(), "--filter", "fixed",    "--out", out.c_str()};
+        const auto finished = std::filesystem::path(out) / "fixed" / "timing.json";
+        CHECK(runIn(failing, command) == 1);
+        CHECK_FALSE(std::filesystem::exists(finished));
+        CHECK(std::filesystem::is_empty(cache));
+        CHECK(runIn(soundContext, command) == 0);
+        CHECK(std::filesystem::exists(finished));
+        CHECK_FALSE(std::filesystem::is_empty(cache));
+    }
+}
+
 TEST_CASE("a context is asked for on the device that was chosen") {
     releaseTestContext();
     for (const ContextChoice choice : {ContextChoice::Egl, ContextChoice::Auto})

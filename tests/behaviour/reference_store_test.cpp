@@ -38,8 +38,7 @@ TEST_CASE("the error that a reference states is up to twice the one it has, and 
         const auto lit = [&](std::uint32_t seed, int samples, double& residual) {
             FrameInput input = studio.at(0.0);
             input.seed = seed; // of another seed: the longer one would contain the shorter
-            ReferenceStore store(thisMaker());
-            residual = store.get(studio.renderer, input, input, studio.settings, samples).residual;
+            residual = converge(studio.renderer, input, input, studio.settings, samples).residual;
             return litRadiance(studio.renderer);
         };
         double residual = 0.0, longResidual = 0.0;
@@ -71,7 +70,7 @@ TEST_CASE("a reference from memory or from a folder is, bit for bit, the one tha
     const auto display = [&] { return studio.targets().filters[0].display.read<glm::u8vec4>(); };
 
     ReferenceStore fresh(thisMaker(), ReferenceCache(folder.path()));
-    const Reference made = fresh.get(studio.renderer, now, then, studio.settings, 40, tell);
+    const Reference made = converge(studio.renderer, now, then, studio.settings, 40, tell, &fresh);
     const auto shown = display();
     const auto lit = litRadiance(studio.renderer);
     CHECK(told == 40);
@@ -86,7 +85,8 @@ TEST_CASE("a reference from memory or from a folder is, bit for bit, the one tha
     for (ReferenceStore* store : {&fresh, &other, &other}) {
         studio.reference(then, 1); // something else in between
         told = 0;
-        const Reference again = store->get(studio.renderer, now, then, studio.settings, 40, tell);
+        const Reference again =
+            converge(studio.renderer, now, then, studio.settings, 40, tell, store);
         CHECK(told == 40);
         CHECK(again.cached);
         CHECK(differingPixels(again.signals[0], made.signals[0]) == 0);
@@ -102,7 +102,7 @@ TEST_CASE("a reference from memory or from a folder is, bit for bit, the one tha
     CHECK(other.counts().fromCache == 1);
     CHECK(other.counts().fromMemory == 1);
     // Another light of the same surfaces is another reference.
-    CHECK_FALSE(other.get(studio.renderer, now, now, studio.settings, 40).cached);
+    CHECK_FALSE(converge(studio.renderer, now, now, studio.settings, 40, {}, &other).cached);
 }
 
 TEST_CASE("a damaged entry is converged again and mended") {
@@ -112,7 +112,8 @@ TEST_CASE("a damaged entry is converged again and mended") {
     const FrameInput input = studio.at(0.0);
     const auto get = [&] {
         ReferenceStore store(thisMaker(), ReferenceCache(folder.path()));
-        const Reference reference = store.get(studio.renderer, input, input, studio.settings, 8);
+        const Reference reference =
+            converge(studio.renderer, input, input, studio.settings, 8, {}, &store);
         CHECK(store.counts().converged + store.counts().fromCache == 1);
         return reference;
     };

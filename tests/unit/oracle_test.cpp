@@ -35,44 +35,44 @@ const Mask kAll(kSize, 1);
 TEST_CASE("the ideal lambda is the share of the light that changed, in every stratum") {
     const Image<float> before = noise(1, 0.2f, 3.0f);
     for (const float left : {0.0f, 0.25f, 1.0f, 4.0f}) {
-        const Image<float> lambda = idealLambda(scaled(before, left), before, kAll, kFloor);
+        const Image<float> lambda = idealLambda(scaled(before, left), before, kAll, kFloor).lambda;
         CHECK(lambda.size() == glm::ivec2(3, 2));
         const float share = left < 1.0f ? 1.0f - left : 1.0f - 1.0f / left;
         for (const float value : lambda.pixels())
             CHECK(value == Approx(share).epsilon(1e-6));
     }
-    const Image<float> still = idealLambda(before, before, kAll, kFloor);
+    const Image<float> still = idealLambda(before, before, kAll, kFloor).lambda;
     for (const float value : still.pixels())
         CHECK(value == 0.0f);
 }
 
 TEST_CASE("the ideal lambda is 0 where there is no light to speak of, and sees no background") {
     const Image<float> dark(kSize, 0.5f * kFloor), darker(kSize, 0.0f);
-    const Image<float> none = idealLambda(darker, dark, kAll, kFloor);
-    for (const float value : none.pixels())
+    const StrataTruth none = idealLambda(darker, dark, kAll, kFloor);
+    for (const float value : none.lambda.pixels())
         CHECK(value == 0.0f);
-    CHECK(countOf(litStrata(darker, dark, kAll, kFloor)) == 0);
+    CHECK(countOf(none.lit) == 0);
 
     Image<float> before = noise(2, 1.0f, 2.0f), now = before;
     Mask foreground = kAll;
     now({1, 1}) = 100.0f;
     foreground({1, 1}) = 0;
-    CHECK(idealLambda(now, before, foreground, kFloor)({0, 0}) == 0.0f);
-    CHECK(countOf(litStrata(now, before, foreground, kFloor)) == 6);
+    CHECK(idealLambda(now, before, foreground, kFloor).lambda({0, 0}) == 0.0f);
+    CHECK(countOf(idealLambda(now, before, foreground, kFloor).lit) == 6);
     for (glm::ivec2 p{6, 0}; p.y < 3; ++p.y)
         foreground(p) = 0; // all of the stratum at the right
-    CHECK(litStrata(now, before, foreground, kFloor)({2, 0}) == 0);
+    CHECK(idealLambda(now, before, foreground, kFloor).lit({2, 0}) == 0);
 }
 
 TEST_CASE("changes that cancel out within a stratum are no change of its light") {
     Image<float> before(kSize, 1.0f), now = before;
     now({0, 0}) = 1.5f;
     now({1, 0}) = 0.5f;
-    const Image<float> lambda = idealLambda(now, before, kAll, kFloor);
+    const Image<float> lambda = idealLambda(now, before, kAll, kFloor).lambda;
     CHECK(lambda({0, 0}) == Approx(0.0f));
     now({1, 0}) = 1.0f;
     // 0.5 of 9.5
-    CHECK(idealLambda(now, before, kAll, kFloor)({0, 0}) == Approx(0.5 / 9.5).epsilon(1e-6));
+    CHECK(idealLambda(now, before, kAll, kFloor).lambda({0, 0}) == Approx(0.5 / 9.5).epsilon(1e-6));
 }
 
 TEST_CASE("the ideal alpha has the least expected error of all weights") {

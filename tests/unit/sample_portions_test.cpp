@@ -16,7 +16,7 @@ std::vector<int> portionsOf(int samples, double millisecondsEach, double overhea
     SamplePortions portions(most);
     std::vector<int> made;
     while (samples > 0) {
-        const int portion = std::min(portions.next(), samples);
+        const int portion = std::min(portions.next(kPortionMilliseconds), samples);
         portions.took(portion, portion * millisecondsEach + overhead);
         made.push_back(portion);
         samples -= portion;
@@ -35,8 +35,8 @@ TEST_CASE("portions of a reference begin with one sample and take no longer than
             CHECK(made.front() == 1);
             for (std::size_t i = 0; i < made.size(); ++i) {
                 // A single sample is as long as it is.
-                CHECK((made[i] == 1 ||
-                       made[i] * each + overhead <= SamplePortions::kMilliseconds + overhead));
+                CHECK(
+                    (made[i] == 1 || made[i] * each + overhead <= kPortionMilliseconds + overhead));
                 CHECK((i == 0 || made[i] <= 2 * made[i - 1]));
             }
         }
@@ -53,10 +53,11 @@ TEST_CASE("portions of a fast device grow to what is wanted, and follow it when 
 
     SamplePortions portions(kMost);
     for (int i = 0; i < 20; ++i)
-        portions.took(portions.next(), 0.01 * portions.next());
-    CHECK(portions.next() >= 4999);
+        portions.took(portions.next(kPortionMilliseconds),
+                      0.01 * portions.next(kPortionMilliseconds));
+    CHECK(portions.next(kPortionMilliseconds) >= 4999);
     portions.took(5000, 500.0);
-    CHECK(portions.next() == 500);
+    CHECK(portions.next(kPortionMilliseconds) == 500);
     portions.took(500, 1e6);
-    CHECK(portions.next() == 1);
+    CHECK(portions.next(kPortionMilliseconds) == 1);
 }
