@@ -2,7 +2,5 @@
 #include "app/window/window.h"
 
 int main(int argc, char** argv) {
-    return afterglow::runCommandLine(
-        argc, argv,
-        {.view = afterglow::runView, .hiddenContext = afterglow::createHiddenWindowContext});
+    return afterglow::runCommandLine(argc, argv, afterglow::createHiddenWindowContext);
 }

@@ -20,7 +20,9 @@ set(app_measure_may "base;scenario;measure")
 set(app_report_may "base;scenario;measure;report")
 set(app_experiment_may "base;scenario;measure;report;experiment")
 set(app_workbench_may "base;scenario;measure;report;experiment;workbench")
-set(app_commands_may "base;scenario;measure;report;experiment;commands")
+set(app_ui_may "base;scenario;measure;report;experiment;workbench;ui")
+set(app_window_may "base;scenario;measure;report;experiment;workbench;ui;window")
+set(app_commands_may "base;scenario;measure;report;experiment;workbench;ui;window;commands")
 
 # Foreign libraries and the files that may see them.
 set(foreign
@@ -32,7 +34,7 @@ set(foreign
     "EGL/|renderer/gl/context_egl.cpp"
     "GLFW/|app/window/|app/ui/"
     "imgui|app/window/|app/ui/"
-    "CLI/|app/")
+    "CLI/|app/commands/")
 
 set(faults "")
 set(seen 0)

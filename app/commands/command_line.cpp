@@ -72,33 +72,30 @@ void refuseExtras(CLI::App& app) {
         place + unknownName(isOption ? "option" : "command", name, {names.begin(), names.end()}));
 }
 
-int dispatch(CLI::App& app, const Words& words, const WindowFunctions& window) {
+int dispatch(CLI::App& app, const Words& words, HiddenContextFactory hiddenContext) {
     const std::string command = chosen(app) ? chosen(app)->get_name() : "";
     const int glErrors = glErrorCount();
     if (command == "render" && words.render.exports) {
-        runExportCommand(words.render.parseExport(), window.hiddenContext);
+        runExportCommand(words.render.parseExport(), hiddenContext);
     } else if (command == "render") {
-        runRender(words.render.parse(), window.hiddenContext);
+        runRender(words.render.parse(), hiddenContext);
     } else if (command == "experiment") {
-        runExperimentCommand(words.experiment.parse(), window.hiddenContext);
+        runExperimentCommand(words.experiment.parse(), hiddenContext);
     } else if (command == "sweep") {
-        runSweepCommand(words.sweep.experiment.parse(), words.sweep.parseSweep(),
-                        window.hiddenContext);
+        runSweepCommand(words.sweep.experiment.parse(), words.sweep.parseSweep(), hiddenContext);
     } else if (command == "merge") {
         runMergeCommand({words.merge.parts.begin(), words.merge.parts.end()}, *words.merge.out);
     } else if (command == "report") {
         runReportCommand(*words.report.folder);
     } else if (command == "import-frames") {
-        runImportCommand(words.import.parse(), window.hiddenContext);
+        runImportCommand(words.import.parse(), hiddenContext);
     } else if (command == "bench") {
-        runBench(words.bench.parse(), window.hiddenContext);
+        runBench(words.bench.parse(), hiddenContext);
     } else if (command == "list") {
         runList(*words.kind);
     } else if (command == "view") {
-        const ViewOptions options = words.view.parse();
-        if (!window.view)
-            throw ContextError("this build has no window");
-        return window.view(options);
+        runView(words.view.parse());
+        return kDone;
     } else {
         throw UsageError("a command is missing: view, render, experiment, sweep, merge, report, "
                          "import-frames, bench or list; see afterglow --help");
@@ -107,7 +104,7 @@ int dispatch(CLI::App& app, const Words& words, const WindowFunctions& window) {
     return kDone;
 }
 
-int parseAndRun(int argc, const char* const* argv, const WindowFunctions& window) {
+int parseAndRun(int argc, const char* const* argv, HiddenContextFactory hiddenContext) {
     CLI::App app("Afterglow: a workbench for adaptive temporal filtering of path-traced light "
                  "(SVGF and A-SVGF).");
     app.name("afterglow");
@@ -153,7 +150,7 @@ int parseAndRun(int argc, const char* const* argv, const WindowFunctions& window
         throw UsageError(place + error.what());
     }
     refuseExtras(app);
-    return dispatch(app, words, window);
+    return dispatch(app, words, hiddenContext);
 }
 
 int fail(int code, std::string message) {
@@ -164,9 +161,9 @@ int fail(int code, std::string message) {
 
 } // namespace
 
-int runCommandLine(int argc, const char* const* argv, const WindowFunctions& window) {
+int runCommandLine(int argc, const char* const* argv, HiddenContextFactory hiddenContext) {
     try {
-        return parseAndRun(argc, argv, window);
+        return parseAndRun(argc, argv, hiddenContext);
     } catch (const UsageError& error) {
         return fail(kWrongUsage, error.what());
     } catch (const InputError& error) {

@@ -1,15 +1,8 @@
 #pragma once
 
 #include "app/commands/headless.h"
-#include "app/commands/view.h"
 
 namespace afterglow {
-
-/// What the program can do with a window; given by main(), so that nothing below sees one.
-struct WindowFunctions {
-    int (*view)(const ViewOptions&) = nullptr;
-    HiddenContextFactory hiddenContext = nullptr;
-};
 
 /// The exit codes of the program.
 enum ExitCode {
@@ -23,6 +16,6 @@ enum ExitCode {
 
 /// The whole program: parses the words, runs the subcommand, and turns whatever goes wrong into one
 /// line on standard error and an exit code.
-int runCommandLine(int argc, const char* const* argv, const WindowFunctions& window);
+int runCommandLine(int argc, const char* const* argv, HiddenContextFactory hiddenContext);
 
 } // namespace afterglow

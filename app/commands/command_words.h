@@ -3,7 +3,7 @@
 #include "app/commands/bench.h"
 #include "app/commands/exchange.h"
 #include "app/commands/render.h"
-#include "app/commands/view.h"
+#include "app/window/view.h"
 
 #include <optional>
 #include <string>

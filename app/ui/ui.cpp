@@ -2,7 +2,6 @@
 
 #include "app/ui/draw.h"
 #include "app/ui/panels.h"
-#include "app/window/window.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,13 +74,13 @@ void sideSections(const PanelContext& panel) {
 
 } // namespace
 
-Ui::Ui(Window& window) : window_(window), context_(ImGui::CreateContext()) {
+Ui::Ui(GLFWwindow* window, float contentScale) : context_(ImGui::CreateContext()) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr; // leaves no files behind
     io.LogFilename = nullptr;
-    ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
     ImGui_ImplOpenGL3_Init("#version 450 core");
-    loadFontsFor(window.contentScale());
+    loadFontsFor(contentScale);
 }
 
 Ui::~Ui() {
@@ -142,7 +141,7 @@ void Ui::followKeyboard(const ViewState& state) {
 
 void Ui::draw(Workbench& workbench, const UiFrame& frame) {
     const float uiScale = workbench.state.preferences.uiScale;
-    loadFontsFor(uiScale > 0.0f ? uiScale : window_.contentScale());
+    loadFontsFor(uiScale > 0.0f ? uiScale : frame.contentScale);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     // Some systems count the window in units of several pixels.

@@ -9,24 +9,24 @@
 #include <span>
 #include <string>
 
+struct GLFWwindow;
 struct ImGuiContext;
 
 namespace afterglow {
-
-class Window;
 
 /// What the interface is drawn around.
 struct UiFrame {
     Layout layout;                     ///< framebuffer pixels
     std::span<const PanePlace> places; ///< where the panes' pictures are
     const Pointer& pointer;
+    float contentScale; ///< of the monitor: 2 where letters need twice the pixels
 };
 
 /// Panels and overlays by Dear ImGui. They hold no state that matters: everything is in the
 /// workbench's ViewState.
 class Ui {
 public:
-    explicit Ui(Window& window);
+    Ui(GLFWwindow* window, float contentScale);
     ~Ui();
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
@@ -47,7 +47,6 @@ private:
     void loadFontsFor(float contentScale);
     void followKeyboard(const ViewState& state);
 
-    Window& window_;
     ImGuiContext* context_;
     Fonts fonts_;
     float contentScale_ = 0.0f;    ///< that the fonts are made for

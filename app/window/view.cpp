@@ -1,4 +1,4 @@
-#include "app/commands/view.h"
+#include "app/window/view.h"
 
 #include "app/scenario/experiment.h"
 #include "app/scenario/run_plan.h"
@@ -60,7 +60,7 @@ Opening openingFor(const ViewOptions& options, const Preferences& preferences) {
 
 } // namespace
 
-int runView(const ViewOptions& options) {
+void runView(const ViewOptions& options) {
     // What was asked for is looked at before there is a window.
     Memory memory = recall(options.resetSettings);
     Opening opening = openingFor(options, memory.preferences);
@@ -75,7 +75,6 @@ int runView(const ViewOptions& options) {
     viewer.run();
     if (memory.file && options.uiCost == 0 && options.frames == 0)
         savePreferences(*memory.file, viewer.preferences());
-    return 0;
 }
 
 } // namespace afterglow

@@ -33,7 +33,8 @@ Viewer::Viewer(const ViewOptions& options, Scene scene, ViewState state)
                                   .size = options.size.value_or(state.preferences.windowSize),
                                   .debugContext = options.debugContext}),
       gl_(glInfo(window_)), shaders_(makeShaderLibrary(gl_, options.shaders)),
-      workbench_(shaders_, gl_, std::move(scene), std::move(state), folders()), ui_(window_) {
+      workbench_(shaders_, gl_, std::move(scene), std::move(state), folders()),
+      ui_(window_.handle(), window_.contentScale()) {
     ViewState& s = workbench_.state;
     const glm::ivec2 view = layoutOf(window_.framebufferSize(), ui_.wishes(s)).view.size;
     s.resolution = startResolution(gl_.softwareRasterizer, view);
@@ -187,7 +188,7 @@ void Viewer::drawWindow(glm::ivec2 framebuffer, const Layout& layout) {
         if (const GpuTexture* const picture = workbench_.picture(place.pane))
             presenter_.draw(*picture, place.picture, place.shown, framebuffer,
                             state.preferences.smoothScaling);
-    ui_.draw(workbench_, {layout, places_, pointer_});
+    ui_.draw(workbench_, {layout, places_, pointer_, window_.contentScale()});
     if (std::exchange(state.wanted.window, false))
         workbench_.save(presenter_.readWindow(framebuffer));
 }

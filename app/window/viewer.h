@@ -1,8 +1,8 @@
 #pragma once
 
-#include "app/commands/view.h"
 #include "app/ui/ui.h"
 #include "app/window/presenter.h"
+#include "app/window/view.h"
 #include "app/window/window.h"
 #include "app/workbench/pointer.h"
 #include "app/workbench/tour.h"

@@ -45,7 +45,7 @@ std::unique_ptr<GlContext> lateContext() {
 int runIn(HiddenContextFactory context, std::vector<const char*> words) {
     words.insert(words.begin(), "afterglow");
     words.insert(words.end(), {"--context", "glfw"}); // the one that is handed in
-    return runCommandLine(int(words.size()), words.data(), {.hiddenContext = context});
+    return runCommandLine(int(words.size()), words.data(), context);
 }
 
 } // namespace

@@ -26,8 +26,7 @@ struct ViewOptions {
     bool debugContext = false; ///< the driver checks every call and reports to the log
 };
 
-/// Opens the window and returns the exit code when it has been closed. Implemented beside the
-/// window: commands know only this declaration.
-int runView(const ViewOptions& options);
+/// Opens the window and returns when it has been closed.
+void runView(const ViewOptions& options);
 
 } // namespace afterglow
