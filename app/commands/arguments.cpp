@@ -4,7 +4,6 @@
 #include "renderer/pipeline/settings.h"
 
 #include <charconv>
-#include <cmath>
 #include <optional>
 
 namespace afterglow {
@@ -90,34 +89,23 @@ std::pair<std::string, std::string> parseAssignment(std::string_view option,
     return {std::string(text.substr(0, sign)), std::string(text.substr(sign + 1))};
 }
 
-LightChange parseLightChange(std::string_view option, std::string_view text) {
+LightEvent parseLightEvent(std::string_view option, std::string_view text) {
     auto [light, value] = parseAssignment(option, text);
-    LightChange change{.light = light};
+    LightEvent event{.light = light, .on = true, .power = 1.0f};
     if (const auto at = value.rfind('@'); at != std::string::npos) {
-        change.frame = int(parseWhole(std::string(option) + " " + std::string(text) + ": frame",
-                                      std::string_view(value).substr(at + 1), 0, 1'000'000));
+        event.frame = int(parseWhole(std::string(option) + " " + std::string(text) + ": frame",
+                                     std::string_view(value).substr(at + 1), 0, 1'000'000));
         value.erase(at);
     }
     if (value == "off" || value == "on") {
-        change.state.on = value == "on";
-        return change;
+        event.on = value == "on";
+        return event;
     }
-    const auto power = number<float>(value);
-    if (!power || !(*power >= 0.0f && *power <= 1e6f))
+    event.power = number<float>(value);
+    if (!event.power || !(*event.power >= 0.0f && *event.power <= 1e6f))
         throw UsageError(std::string(option) + ": expected NAME=on, NAME=off or NAME=POWER (0 to " +
                          "1000000), each with @FRAME or without, found " + quoted(text));
-    change.state.power = *power;
-    return change;
-}
-
-std::size_t lightSlot(const Scene& scene, std::string_view name) {
-    std::vector<std::string_view> known;
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        if (scene.lights[i].name == name)
-            return i;
-        known.push_back(scene.lights[i].name);
-    }
-    throw UsageError(scene.name + ": " + unknownName("light", name, known));
+    return event;
 }
 
 std::size_t cameraIndex(const Scene& scene, std::string_view name) {
@@ -130,20 +118,6 @@ std::size_t cameraIndex(const Scene& scene, std::string_view name) {
         known.push_back(scene.cameras[i].name);
     }
     throw UsageError(scene.name + ": " + unknownName("camera", name, known));
-}
-
-std::vector<LightState> lightsAt(const Scene& scene, const std::vector<LightChange>& changes,
-                                 int frame) {
-    std::vector<LightState> lights(scene.lights.size());
-    std::vector<int> since(scene.lights.size(), -1);
-    for (const LightChange& change : changes) {
-        const std::size_t slot = lightSlot(scene, change.light);
-        if (change.frame > frame || change.frame < since[slot])
-            continue;
-        lights[slot] = change.state;
-        since[slot] = change.frame;
-    }
-    return lights;
 }
 
 } // namespace afterglow

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "app/scenario/timeline.h"
 #include "renderer/base/names.h"
-#include "renderer/pipeline/light_state.h"
 #include "renderer/scene/scene.h"
 
 #include <cstdint>
@@ -33,25 +33,11 @@ std::vector<std::string> parseList(std::string_view option, std::string_view tex
 /// "key" and "value" of "key=value".
 std::pair<std::string, std::string> parseAssignment(std::string_view option, std::string_view text);
 
-/// From which frame on a light is in which state.
-struct LightChange {
-    std::string light;
-    int frame = 0;
-    LightState state{};
-    bool operator==(const LightChange&) const = default;
-};
-
-/// "key=off@8", "key=on@16", "fill=0.5" (power, from frame 0 on).
-LightChange parseLightChange(std::string_view option, std::string_view text);
-
-/// The slot of a light of the scene; UsageError names the nearest known.
-std::size_t lightSlot(const Scene& scene, std::string_view name);
+/// Parses "key=off@8", "key=on@16", "fill=0.5" (power, from frame 0 on). The event sets both `on`
+/// and `power`: what the text leaves out is as the scene has it.
+LightEvent parseLightEvent(std::string_view option, std::string_view text);
 
 /// Index of a camera of the scene; the empty name is the first.
 std::size_t cameraIndex(const Scene& scene, std::string_view name);
-
-/// State of every light slot at a frame: the last change at or before it holds.
-std::vector<LightState> lightsAt(const Scene& scene, const std::vector<LightChange>& changes,
-                                 int frame);
 
 } // namespace afterglow

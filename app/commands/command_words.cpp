@@ -76,11 +76,11 @@ Settings PictureWords::toSettings() const {
     return result;
 }
 
-std::vector<LightChange> PictureWords::toLightChanges() const {
-    std::vector<LightChange> changes;
+std::vector<LightEvent> PictureWords::toLightEvents() const {
+    std::vector<LightEvent> events;
     for (const std::string& text : lights)
-        changes.push_back(parseLightChange("--light", text));
-    return changes;
+        events.push_back(parseLightEvent("--light", text));
+    return events;
 }
 
 std::uint32_t PictureWords::toSeed() const {
@@ -155,7 +155,7 @@ ExportOptions RenderWords::parseExport() const {
     if (picture.seed)
         options.seed = picture.toSeed();
     options.camera = picture.camera.value_or("");
-    options.lights = picture.toLightChanges();
+    options.lights = picture.toLightEvents();
     if (picture.signal)
         options.signal = signalFromName(*picture.signal);
     if (rate)
@@ -180,7 +180,7 @@ RenderOptions RenderWords::parse() const {
         options.frames = int(parseWhole("--frames", *picture.frames, 1, kMostFrames));
     options.seed = picture.toSeed();
     options.context = picture.context.parse();
-    options.lights = picture.toLightChanges();
+    options.lights = picture.toLightEvents();
     if (aovs)
         options.aovs = parseList("--aov", *aovs);
     options.format = floatFormat(format);

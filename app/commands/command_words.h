@@ -46,7 +46,7 @@ struct PictureWords {
     void addSeed(CLI::App& app);
 
     Settings toSettings() const;
-    std::vector<LightChange> toLightChanges() const;
+    std::vector<LightEvent> toLightEvents() const;
     std::uint32_t toSeed() const;
 };
 

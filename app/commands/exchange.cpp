@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
 namespace afterglow {
 
@@ -47,25 +46,6 @@ std::string plainName(const std::string& scene) {
     return isPlainName(name) ? name : "scene";
 }
 
-/// Each change as the events that say what is different from then on.
-std::vector<TimelineEvent> eventsOf(std::vector<LightChange> changes, int frames) {
-    std::ranges::stable_sort(changes, {}, &LightChange::frame);
-    std::map<std::string, LightState> states;
-    std::vector<TimelineEvent> events;
-    for (const LightChange& change : changes) {
-        LightState& state = states[change.light];
-        LightEvent event{.frame = change.frame, .light = change.light};
-        if (change.state.on != state.on)
-            event.on = change.state.on;
-        if (change.state.power != state.power)
-            event.power = change.state.power;
-        state = change.state;
-        if ((event.on || event.power) && change.frame < frames)
-            events.push_back(event);
-    }
-    return events;
-}
-
 std::string describe(const std::vector<TimelineEvent>& events) {
     std::string text;
     for (const TimelineEvent& event : events)
@@ -76,8 +56,8 @@ std::string describe(const std::vector<TimelineEvent>& events) {
 
 Experiment sceneExperiment(const ExportOptions& options) {
     const Scene scene = loadScene(options.source);
-    for (const LightChange& change : options.lights)
-        lightSlot(scene, change.light);
+    const int frames = options.frames.value_or(kFrames);
+    const Timeline timeline = lightTimeline(scene, options.lights, frames);
     if (cameraIndex(scene, options.camera) != 0)
         throw UsageError("--camera " + options.camera +
                          ": frames are exported as the first "
@@ -93,12 +73,10 @@ Experiment sceneExperiment(const ExportOptions& options) {
     experiment.animated = options.animate;
     experiment.variants = {variantOf(Filter::Fixed), variantOf(Filter::Svgf),
                            variantOf(Filter::Asvgf)};
-    const int frames = options.frames.value_or(kFrames);
-    const std::vector<TimelineEvent> events = eventsOf(options.lights, frames);
-    experiment.description = !events.empty()   ? describe(events)
-                             : options.animate ? "the scene's own animation"
-                                               : "nothing changes";
-    experiment.timeline = Timeline(frames, events);
+    experiment.description = !timeline.events().empty() ? describe(timeline.events())
+                             : options.animate          ? "the scene's own animation"
+                                                        : "nothing changes";
+    experiment.timeline = timeline;
     return experiment;
 }
 

@@ -21,7 +21,7 @@ struct ExportOptions {
     std::optional<std::uint32_t> seed;
     // Of a scene only; an experiment says these itself:
     std::string camera; ///< empty, or the scene's first
-    std::vector<LightChange> lights;
+    std::vector<LightEvent> lights;
     std::optional<Signal> signal;
     std::optional<double> rate;
     bool animate = false;

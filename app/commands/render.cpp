@@ -76,11 +76,11 @@ private:
 
 Json describeRun(const RenderOptions& options, const Headless& headless, std::size_t camera) {
     Json lights = Json::array();
-    for (const LightChange& change : options.lights)
-        lights.push_back({{"frame", change.frame},
-                          {"light", change.light},
-                          {"on", change.state.on},
-                          {"power", change.state.power}});
+    for (const LightEvent& event : options.lights)
+        lights.push_back({{"frame", event.frame},
+                          {"light", event.light},
+                          {"on", *event.on},
+                          {"power", *event.power}});
     const Scene& scene = headless.renderer.scene();
     return {{"program", "afterglow"},
             {"version", version()},
@@ -103,13 +103,14 @@ void renderFrames(const RenderOptions& options, Headless& headless, std::size_t 
                   const OutputFolder& folder) {
     Renderer& renderer = headless.renderer;
     const Scene& scene = renderer.scene();
+    const Timeline timeline = lightTimeline(scene, options.lights, options.frames);
     FrameWriter writer(options, folder);
     FrameClock clock;
     renderer.timer().setEnabled(true);
     {
         Progress progress(options.frames);
         for (int frame = 0; frame < options.frames; ++frame) {
-            const auto lights = lightsAt(scene, options.lights, frame);
+            const auto lights = timeline.lightsAt(scene, frame);
             const GpuTexture& display = clock.render(
                 renderer, inputAt(options, scene, camera, frame, lights), options.settings);
             const bool isLast = frame + 1 == options.frames;
@@ -135,7 +136,7 @@ void renderReference(const RenderOptions& options, Headless& headless, std::size
     const Scene& scene = renderer.scene();
     const int samples = *options.samples;
     FrameWriter writer(options, folder);
-    const auto lights = lightsAt(scene, options.lights, 0);
+    const auto lights = lightTimeline(scene, options.lights, 1).lightsAt(scene, 0);
     const FrameInput input = inputAt(options, scene, camera, 0, lights);
     const Reference result = [&] {
         Progress progress(samples);
@@ -167,13 +168,13 @@ void runRender(const RenderOptions& options, HiddenContextFactory hiddenContext)
         throw UsageError(
             "--spp makes the converged image of one moment, which no filter touches; it "
             "needs --filter none");
-    for (const LightChange& change : options.lights)
-        if (options.samples && change.frame > 0)
-            throw UsageError("--light " + change.light + "=...@" + std::to_string(change.frame) +
+    for (const LightEvent& event : options.lights)
+        if (options.samples && event.frame > 0)
+            throw UsageError("--light " + event.light + "=...@" + std::to_string(event.frame) +
                              ": --spp makes one image, so lights change at frame 0 only");
     Scene scene = loadScene(options.scene);
     const std::size_t camera = cameraIndex(scene, options.camera);
-    lightsAt(scene, options.lights, 0);
+    lightTimeline(scene, options.lights, options.frames);
     const OutputFolder folder(options.out);
 
     Headless headless(options.context, hiddenContext);

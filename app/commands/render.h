@@ -19,7 +19,7 @@ struct RenderOptions {
     double rate = 60.0;   ///< frames a second of scene time
     bool animate = false; ///< the scene's own animation plays; otherwise time stands still at 0
     ContextWish context;
-    std::vector<LightChange> lights;
+    std::vector<LightEvent> lights;
     std::vector<std::string> aovs;
     std::string format = "png"; ///< of AOVs: "pfm", else EXR; display images are always PNG
     std::optional<int> samples; ///< instead of frames: the converged image of so many a pixel

@@ -135,19 +135,6 @@ LightState lightOf(const FrameMoment& moment, std::size_t slot) {
     return slot < moment.lights.size() ? moment.lights[slot] : LightState{};
 }
 
-std::optional<LightEvent> changeOf(const LightState& before, const LightState& now) {
-    if (before == now)
-        return {};
-    LightEvent event;
-    if (before.on != now.on)
-        event.on = now.on;
-    if (before.power != now.power)
-        event.power = now.power;
-    if (before.tint != now.tint)
-        event.tint = now.tint;
-    return event;
-}
-
 // --- camera --------------------------------------------------------------------------------------
 
 bool near(glm::vec3 a, glm::vec3 b, float tolerance) {
@@ -246,11 +233,8 @@ Experiment experimentOf(const Take& take, const Scene& scene, Experiment base, i
         const int when = i == 0 ? 0 : before + int(i); // in the experiment
         for (std::size_t slot = 0; slot < scene.lights.size(); ++slot) {
             const LightState was = i == 0 ? LightState{} : lightOf(take.frames[i - 1], slot);
-            if (auto event = changeOf(was, lightOf(now, slot))) {
-                event->frame = when;
-                event->light = scene.lights[slot].name;
-                events.push_back(*event);
-            }
+            if (auto event = changeOf(when, scene.lights[slot].name, was, lightOf(now, slot)))
+                events.emplace_back(*event);
         }
         const bool moves =
             i == 0 ? now.camera != ownView(0) : now.camera != take.frames[i - 1].camera;

@@ -6,20 +6,15 @@
 #include "renderer/base/names.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace afterglow {
 namespace {
 
 constexpr std::string_view kAllLights = "*";
-
-void change(LightState& state, const LightEvent& event) {
-    state.on = event.on.value_or(state.on);
-    state.power = event.power.value_or(state.power);
-    state.tint = event.tint.value_or(state.tint);
-}
 
 std::string describeLight(const LightEvent& event) {
     std::string text = event.light == kAllLights ? "all lights" : event.light;
@@ -51,6 +46,26 @@ std::optional<Span> spanOf(const TimelineEvent& event) {
 
 } // namespace
 
+LightState withEvent(const LightState& light, const LightEvent& event) {
+    return {.on = event.on.value_or(light.on),
+            .power = event.power.value_or(light.power),
+            .tint = event.tint.value_or(light.tint)};
+}
+
+std::optional<LightEvent> changeOf(int frame, const std::string& light, const LightState& before,
+                                   const LightState& after) {
+    if (before == after)
+        return {};
+    LightEvent event{.frame = frame, .light = light};
+    if (before.on != after.on)
+        event.on = after.on;
+    if (before.power != after.power)
+        event.power = after.power;
+    if (before.tint != after.tint)
+        event.tint = after.tint;
+    return event;
+}
+
 int frameOf(const TimelineEvent& event) {
     return std::visit([](const auto& e) { return e.frame; }, event);
 }
@@ -63,27 +78,6 @@ std::string describe(const TimelineEvent& event) {
     if (span.node.empty())
         return jumps ? "camera cut" : "camera moves";
     return std::string(span.node) + (jumps ? " jumps" : " moves");
-}
-
-const LightState& LightSettings::of(std::string_view light) const {
-    const auto found = named_.find(light);
-    return found == named_.end() ? others_ : found->second;
-}
-
-void LightSettings::apply(const LightEvent& event) {
-    if (event.light == kAllLights) {
-        change(others_, event);
-        for (auto& [name, state] : named_)
-            change(state, event);
-    } else {
-        change(named_.try_emplace(event.light, others_).first->second, event);
-    }
-}
-
-bool LightSettings::operator==(const LightSettings& other) const {
-    const auto agrees = [&](const auto& named) { return of(named.first) == other.of(named.first); };
-    return others_ == other.others_ && std::all_of(named_.begin(), named_.end(), agrees) &&
-           std::all_of(other.named_.begin(), other.named_.end(), agrees);
 }
 
 Timeline::Timeline(int frames, std::vector<TimelineEvent> events)
@@ -109,29 +103,48 @@ bool Timeline::moves() const {
                                [](const auto& event) { return spanOf(event).has_value(); });
 }
 
-LightSettings Timeline::lightsAt(int frame) const {
-    LightSettings lights;
-    for (const TimelineEvent& event : events_)
-        if (const auto* light = std::get_if<LightEvent>(&event); light && light->frame <= frame)
-            lights.apply(*light);
+std::vector<LightState> Timeline::lightsAt(const Scene& scene, int frame) const {
+    std::vector<LightState> lights(scene.lights.size());
+    for (const TimelineEvent& event : events_) {
+        const auto* const light = std::get_if<LightEvent>(&event);
+        if (!light || light->frame > frame)
+            continue;
+        for (std::size_t slot = 0; slot < lights.size(); ++slot)
+            if (light->light == kAllLights || light->light == scene.lights[slot].name)
+                lights[slot] = withEvent(lights[slot], *light);
+    }
     return lights;
 }
 
+Timeline lightTimeline(const Scene& scene, std::vector<LightEvent> events, int frames) {
+    std::vector<std::string_view> known;
+    for (const Light& light : scene.lights)
+        known.push_back(light.name);
+    for (const LightEvent& event : events)
+        if (std::ranges::find(known, event.light) == known.end())
+            throw UsageError(scene.name + ": " + unknownName("light", event.light, known));
+
+    std::ranges::stable_sort(events, {}, &LightEvent::frame);
+    std::map<std::string, LightState> lights;
+    std::vector<TimelineEvent> changes;
+    for (const LightEvent& event : events) {
+        LightState& light = lights[event.light];
+        const LightState before = std::exchange(light, withEvent(light, event));
+        if (const auto change = changeOf(event.frame, event.light, before, light);
+            change && event.frame < frames)
+            changes.emplace_back(*change);
+    }
+    return Timeline(frames, std::move(changes));
+}
+
 std::vector<Moment> momentsOf(const Timeline& timeline, const Scene& staged, double rate) {
-    const auto lightsAt = [&](int frame) {
-        const LightSettings settings = timeline.lightsAt(frame);
-        std::vector<LightState> lights;
-        for (const Light& light : staged.lights)
-            lights.push_back(settings.of(light.name));
-        return lights;
-    };
     const std::size_t cameraNode = staged.cameras.at(0).node;
 
     std::vector<Moment> moments;
     Pose before;
     for (int frame = 0; frame < timeline.frames(); ++frame) {
         Moment next{.first = frame, .end = frame + 1, .seconds = frame / rate};
-        next.lights = lightsAt(frame);
+        next.lights = timeline.lightsAt(staged, frame);
         const Pose pose = poseAt(staged, next.seconds);
         if (frame > 0) {
             next.lightsChanged = lightsDiffer(staged, next.lights, moments.back().lights);

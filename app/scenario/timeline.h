@@ -3,7 +3,6 @@
 #include "renderer/pipeline/light_state.h"
 #include "renderer/scene/scene.h"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,27 +44,18 @@ struct CameraMove {
     bool operator==(const CameraMove&) const = default;
 };
 
+/// Returns the light with what the event sets.
+LightState withEvent(const LightState& light, const LightEvent& event);
+
+/// Returns the event that makes `after` of `before`, or nothing where they are equal.
+std::optional<LightEvent> changeOf(int frame, const std::string& light, const LightState& before,
+                                   const LightState& after);
+
 using TimelineEvent = std::variant<LightEvent, NodeMotion, CameraMove>;
 
 int frameOf(const TimelineEvent& event);
 /// "key off", "key to 50 %", "mover moves", "camera cut".
 std::string describe(const TimelineEvent& event);
-
-/// How every light is set: those that events have named, and all others alike.
-class LightSettings {
-public:
-    /// What the scene's light of this name is set to.
-    const LightState& of(std::string_view light) const;
-
-    void apply(const LightEvent& event);
-
-    /// Equal if every light, named or not, is set alike.
-    bool operator==(const LightSettings& other) const;
-
-private:
-    LightState others_;
-    std::map<std::string, LightState, std::less<>> named_;
-};
 
 /// What happens in the frames 0 .. frames - 1: events in the order of their frames. Those of one
 /// frame apply in the order in which they are listed.
@@ -80,7 +70,8 @@ public:
     const std::vector<TimelineEvent>& events() const { return events_; }
     bool moves() const; ///< whether anything but light changes
 
-    LightSettings lightsAt(int frame) const;
+    /// Returns how each light of the scene is set, by slot.
+    std::vector<LightState> lightsAt(const Scene& scene, int frame) const;
 
     /// The scene with this timeline's motions as its tracks, at `rate` frames per second; its own
     /// tracks play only if `animated`. `owner` begins the message of the InputError that names a
@@ -91,6 +82,11 @@ private:
     int frames_ = 0;
     std::vector<TimelineEvent> events_;
 };
+
+/// Returns the timeline in which these events, in any order, say only what they change. Events from
+/// the frame `frames` on are left out. UsageError for a light that the scene does not have names
+/// the nearest that it has.
+Timeline lightTimeline(const Scene& scene, std::vector<LightEvent> events, int frames);
 
 /// The frames [first, end) in which nothing changes: they share one converged picture.
 struct Moment {

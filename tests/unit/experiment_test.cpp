@@ -4,6 +4,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/image/color.h"
+#include "renderer/scene/procedural.h"
 #include "tests/support/source_dir.h"
 
 #include <filesystem>
@@ -52,6 +53,12 @@ std::string refusal(std::string_view key, std::string_view value) {
     return refusalOf(file(key, value));
 }
 
+/// How the experiment sets a light of the scene "cornell": "key" or "fill".
+LightState lightAt(const Experiment& experiment, int frame, std::string_view light) {
+    return experiment.timeline.lightsAt(makeProceduralScene("cornell"), frame)
+        .at(light == "key" ? 0 : 1);
+}
+
 } // namespace
 
 TEST_CASE("an experiment says what its file says, and the rest has its documented value") {
@@ -70,8 +77,8 @@ TEST_CASE("an experiment says what its file says, and the rest has its documente
     CHECK(e.settledWindow == 16);
     CHECK(e.seconds(30) == 0.5);
     REQUIRE(e.timeline.events().size() == 1);
-    CHECK(e.timeline.lightsAt(3).of("key").on);
-    CHECK_FALSE(e.timeline.lightsAt(4).of("key").on);
+    CHECK(lightAt(e, 3, "key").on);
+    CHECK_FALSE(lightAt(e, 4, "key").on);
 }
 
 TEST_CASE("every member of an experiment is read, and survives being written") {
@@ -116,9 +123,9 @@ TEST_CASE("every member of an experiment is read, and survives being written") {
             x.timeline.events()[4] ==
             TimelineEvent(CameraMove{
                 .frame = 9, .until = 10, .eye = {1.0f, 2.0f, 3.0f}, .target = {0.0f, 0.1f, 0.0f}}));
-        CHECK(x.timeline.lightsAt(7).of("key") ==
+        CHECK(lightAt(x, 7, "key") ==
               LightState{.on = false, .power = 0.7f, .tint = {1.0f, 0.25f, 0.0f}});
-        CHECK(x.timeline.lightsAt(7).of("fill").on);
+        CHECK(lightAt(x, 7, "fill").on);
     };
     check(e);
     const Experiment back = parseExperiment(toJson(e), "again.json");

@@ -112,7 +112,8 @@ TEST_CASE("another color has the same luminance, and another hue where light has
 TEST_CASE("the key light of the Cornell box turns as in the experiment light-color") {
     ViewState state = cornellState();
     cause(state, {SceneEvent::Kind::ColorLight, 0});
-    const glm::vec3 experiment = loadExperiment("light-color").timeline.lightsAt(64).of("key").tint;
+    const glm::vec3 experiment =
+        loadExperiment("light-color").timeline.lightsAt(makeProceduralScene("cornell"), 64)[0].tint;
     CHECK(glm::distance(state.lights[0].tint, experiment) < 1e-4f);
 }
 

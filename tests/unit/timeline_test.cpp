@@ -30,6 +30,11 @@ LightEvent tinted(int frame, std::string light, glm::vec3 tint) {
     return event;
 }
 
+/// How the timeline sets a light of the scene "cornell": "key" or "fill".
+LightState lightAt(const Timeline& timeline, int frame, std::string_view light) {
+    return timeline.lightsAt(makeProceduralScene("cornell"), frame).at(light == "key" ? 0 : 1);
+}
+
 } // namespace
 
 TEST_CASE("a light's scale is its power times its tint, and nothing when it is off") {
@@ -41,8 +46,8 @@ TEST_CASE("a light's scale is its power times its tint, and nothing when it is o
 
 TEST_CASE("without events every light is as the scene has it") {
     const Timeline timeline(10, {});
-    CHECK(timeline.lightsAt(0).of("key") == LightState{});
-    CHECK(timeline.lightsAt(9) == LightSettings{});
+    CHECK(lightAt(timeline, 0, "key") == LightState{});
+    CHECK(lightAt(timeline, 9, "fill") == LightState{});
     const std::vector<Moment> moments = momentsOf(timeline, makeProceduralScene("rooms"), 60.0);
     REQUIRE(moments.size() == 1);
     CHECK(moments[0].first == 0);
@@ -53,30 +58,30 @@ TEST_CASE("without events every light is as the scene has it") {
 
 TEST_CASE("an event holds from its own frame on, for its own light, until another") {
     const Timeline timeline(100, {turned(20, "key", false), turned(50, "key", true)});
-    CHECK(timeline.lightsAt(19).of("key").on);
-    CHECK_FALSE(timeline.lightsAt(20).of("key").on);
-    CHECK(timeline.lightsAt(20).of("fill").on);
-    CHECK_FALSE(timeline.lightsAt(49).of("key").on);
-    CHECK(timeline.lightsAt(50).of("key").on);
+    CHECK(lightAt(timeline, 19, "key").on);
+    CHECK_FALSE(lightAt(timeline, 20, "key").on);
+    CHECK(lightAt(timeline, 20, "fill").on);
+    CHECK_FALSE(lightAt(timeline, 49, "key").on);
+    CHECK(lightAt(timeline, 50, "key").on);
 }
 
 TEST_CASE("an event changes only what it says") {
     const Timeline timeline(10, {powered(1, "key", 3.0f), tinted(2, "key", {1.0f, 0.5f, 0.0f}),
                                  turned(3, "key", false), turned(4, "key", true)});
-    CHECK(timeline.lightsAt(4).of("key") ==
+    CHECK(lightAt(timeline, 4, "key") ==
           LightState{.on = true, .power = 3.0f, .tint = {1.0f, 0.5f, 0.0f}});
-    CHECK(timeline.lightsAt(3).of("key").scale() == glm::vec3(0.0f));
+    CHECK(lightAt(timeline, 3, "key").scale() == glm::vec3(0.0f));
 }
 
 TEST_CASE("all lights can be set at once, before and after one is set apart") {
     const Timeline timeline(10,
                             {turned(0, "*", false), turned(0, "key", true), powered(5, "*", 0.5f)});
-    CHECK(timeline.lightsAt(0).of("key").on);
-    CHECK_FALSE(timeline.lightsAt(0).of("fill").on);
-    CHECK(timeline.lightsAt(0).of("key").power == 1.0f);
-    CHECK(timeline.lightsAt(5).of("key").scale() == glm::vec3(0.5f));
-    CHECK(timeline.lightsAt(5).of("lantern 3").power == 0.5f);
-    CHECK_FALSE(timeline.lightsAt(5).of("lantern 3").on);
+    CHECK(lightAt(timeline, 0, "key").on);
+    CHECK_FALSE(lightAt(timeline, 0, "fill").on);
+    CHECK(lightAt(timeline, 0, "key").power == 1.0f);
+    CHECK(lightAt(timeline, 5, "key").scale() == glm::vec3(0.5f));
+    CHECK(lightAt(timeline, 5, "fill").power == 0.5f);
+    CHECK_FALSE(lightAt(timeline, 5, "fill").on);
 }
 
 TEST_CASE("moments end where something changes and nowhere else") {
@@ -123,8 +128,8 @@ TEST_CASE(
             CHECK(moments[i].first == next);
             CHECK(moments[i].frames() > 0);
             for (next = moments[i].first; next < moments[i].end; ++next) {
-                CHECK(timeline.lightsAt(next).of("key") == moments[i].lights[0]);
-                CHECK(timeline.lightsAt(next).of("fill") == moments[i].lights[1]);
+                CHECK(lightAt(timeline, next, "key") == moments[i].lights[0]);
+                CHECK(lightAt(timeline, next, "fill") == moments[i].lights[1]);
             }
             if (i > 0)
                 CHECK(moments[i].lights != moments[i - 1].lights);
@@ -221,16 +226,27 @@ TEST_CASE("events say what they are") {
     CHECK(describe(CameraMove{.frame = 3, .until = 5}) == "camera moves");
 }
 
-TEST_CASE("settings are equal if all lights are, however they came to be") {
-    LightSettings a, b;
-    a.apply(turned(0, "key", true)); // named, but as all others are
-    CHECK(a == b);
-    a.apply(turned(0, "*", false));
-    CHECK_FALSE(a == b);
-    b.apply(turned(0, "key", false));
-    CHECK_FALSE(a == b);
-    b.apply(turned(0, "*", false));
-    CHECK(a == b);
+TEST_CASE("events that set lights whole become a timeline that says only what changes") {
+    const auto whole = [](int frame, std::string light, bool on, float power) {
+        return LightEvent{.frame = frame, .light = std::move(light), .on = on, .power = power};
+    };
+    const Scene scene = makeProceduralScene("cornell");
+    const Timeline timeline = lightTimeline(scene,
+                                            {whole(9, "key", true, 1.0f), // in any order
+                                             whole(2, "key", true, 0.5f),
+                                             whole(4, "key", false, 1.0f),    // full power again
+                                             whole(4, "fill", true, 1.0f),    // as it is
+                                             whole(7, "key", false, 1.0f),    // as it is by then
+                                             whole(12, "fill", false, 1.0f)}, // past the end
+                                            12);
+    LightEvent second = turned(4, "key", false);
+    second.power = 1.0f;
+    CHECK(timeline.frames() == 12);
+    CHECK(timeline.events() ==
+          std::vector<TimelineEvent>{powered(2, "key", 0.5f), second, turned(9, "key", true)});
+    CHECK_THROWS_WITH_AS(lightTimeline(scene, {whole(99, "kye", true, 1.0f)}, 12),
+                         doctest::Contains("cornell: no light named 'kye'; did you mean 'key'?"),
+                         UsageError);
 }
 
 TEST_CASE("a timeline out of order or out of range is our mistake") {
