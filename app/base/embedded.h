@@ -1,19 +1,18 @@
 #pragma once
 
+#include "renderer/base/embedded_file.h"
+
 #include <span>
-#include <string_view>
 
 namespace afterglow {
 
-/// A JSON file of assets, linked into the program.
-struct EmbeddedFile {
-    std::string_view name; ///< the file's name without ".json"
-    std::string_view text;
-};
+// Files that are linked into the program, so that it finds them wherever it runs.
 
-// In alphabetical order of their names.
-std::span<const EmbeddedFile> embeddedExperiments(); ///< of assets/experiments
-std::span<const EmbeddedFile> embeddedPresets();     ///< of assets/presets
-std::span<const EmbeddedFile> embeddedTour();        ///< of assets/tour
+std::span<const EmbeddedFile> embeddedExperiments(); ///< assets/experiments, by name
+std::span<const EmbeddedFile> embeddedPresets();     ///< assets/presets, by name
+std::span<const EmbeddedFile> embeddedTour();        ///< assets/tour, by name
+/// assets/report: the page, its style, and its scripts in the order in which they run.
+std::span<const EmbeddedFile> embeddedReport();
+std::span<const EmbeddedFile> embeddedFonts(); ///< Roboto: regular, then medium; TrueType
 
 } // namespace afterglow

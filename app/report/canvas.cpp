@@ -110,15 +110,18 @@ void Canvas::dot(glm::vec2 center, float radius, glm::u8vec3 color) {
 }
 
 void Canvas::text(glm::vec2 at, std::string_view text, const TextStyle& style) {
-    // Upright strokes look alike if every text begins at the same place in a pixel.
-    at.x = std::floor(at.x - style.align * style.size * textWidth(text)) + 0.5f;
-    at.y = std::floor(at.y) + 0.5f;
-    std::vector<Polyline> strokes = textStrokes(text);
-    for (Polyline& points : strokes) {
-        for (glm::vec2& p : points)
-            p = at + style.size * glm::vec2(p.x, -p.y);
+    const int baseline = int(std::floor(at.y)); // horizontal strokes are as sharp as can be
+    const float left = at.x - style.align * style.width(text);
+    for (const Glyph& glyph : glyphsOf(text, style.size, style.weight, left)) {
+        const glm::ivec2 size = glyph.coverage.size();
+        for (int y = 0; y < size.y; ++y) {
+            for (int x = 0; x < size.x; ++x) {
+                const glm::ivec2 p = glyph.corner + glm::ivec2(x, y + baseline);
+                if (image_.contains(p))
+                    blend(p, style.color, float(glyph.coverage({x, y})) / 255.0f);
+            }
+        }
     }
-    stroke(strokes, style.pen, style.color);
 }
 
 } // namespace afterglow

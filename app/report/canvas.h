@@ -1,22 +1,28 @@
 #pragma once
 
-#include "app/report/stroke_font.h"
+#include "app/report/typeface.h"
 #include "renderer/image/image.h"
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <glm/glm.hpp>
 
 namespace afterglow {
 
+/// A line through points, drawn with a round pen.
+using Polyline = std::vector<glm::vec2>;
+
 /// How text is written.
 struct TextStyle {
-    float size = 1.4f; ///< pixels per unit of the typeface: capitals are 7 times as high
-    float pen = 1.4f;  ///< the strokes' width in pixels
+    float size = 16.0f; ///< pixels an em
+    Weight weight = Weight::Regular;
     glm::u8vec3 color{220};
-    float align =
-        0.0f; ///< which part of the text is at the given place: 0 its left end, 1 its right
+    /// Which part of the text is at the given place: 0 its left end, 1 its right.
+    float align = 0.0f;
+
+    float width(std::string_view text) const { return textWidth(text, size, weight); }
 };
 
 /// A picture to draw on: sRGB colors, smooth edges. Positions are in pixels, (0, 0) is the upper

@@ -17,20 +17,22 @@ constexpr glm::u8vec3 kBright{236, 239, 244};
 constexpr glm::u8vec3 kText{190, 196, 206};
 constexpr glm::u8vec3 kFaint{128, 136, 150};
 
-constexpr TextStyle kTitle{.size = 2.4f, .pen = 2.2f, .color = kBright};
-constexpr TextStyle kSubtitle{.size = 1.4f, .pen = 1.25f, .color = kFaint};
-constexpr TextStyle kCaption{.size = 1.4f, .pen = 1.3f, .color = kText};
-constexpr TextStyle kName{.size = 1.8f, .pen = 1.8f, .color = kText};
-constexpr TextStyle kNote{.size = 1.4f, .pen = 1.25f, .color = kText};
-constexpr TextStyle kFooter{.size = 1.2f, .pen = 1.15f, .color = kFaint};
+constexpr TextStyle kTitle{.size = 30, .weight = Weight::Medium, .color = kBright};
+constexpr TextStyle kSubtitle{.size = 18, .color = kFaint};
+constexpr TextStyle kCaption{.size = 16, .color = kText};
+constexpr TextStyle kName{.size = 20, .weight = Weight::Medium, .color = kText};
+constexpr TextStyle kNote{.size = 16, .color = kFaint};
+constexpr TextStyle kValue{.size = 16, .weight = Weight::Medium, .color = kText, .align = 1.0f};
+constexpr TextStyle kFooter{.size = 14, .color = kFaint};
 
 constexpr int kMargin = 32;
 constexpr int kGap = 6;       ///< between pictures
 constexpr int kEventGap = 22; ///< before the column of the event
 constexpr int kCaptionHeight = 26;
-constexpr int kPlotHeight = 300;
-constexpr int kPlotGap = 34; ///< above each plot
-constexpr int kNoteStep = 19;
+constexpr int kPlotHeight = 320;
+constexpr int kPlotGap = 36; ///< above each plot
+constexpr int kNoteStep = 22;
+constexpr int kNoteGap = 16; ///< at least, between a note and its value
 constexpr int kWidestPicture = 320, kNarrowestPicture = 120;
 constexpr int kLeastContent = 560; ///< narrower plots have no room for their labels
 
@@ -73,7 +75,7 @@ Image<glm::u8vec4> shown(const Image<glm::u8vec4>& picture) {
 }
 
 int ceilWidth(std::string_view text, const TextStyle& style) {
-    return int(std::ceil(style.size * textWidth(text)));
+    return int(std::ceil(style.width(text)));
 }
 
 /// The size of the sheet's pictures as given; (0, 0) if there is none.
@@ -119,8 +121,9 @@ Layout layoutOf(const ContactSheet& sheet) {
     std::size_t mostNotes = 0;
     for (const SheetRow& row : sheet.rows) {
         gutter = std::max(gutter, ceilWidth(row.name, kName) + 40);
-        for (const std::string& note : row.notes)
-            gutter = std::max(gutter, ceilWidth(note, kNote) + 40);
+        for (const auto& [note, value] : row.notes)
+            gutter =
+                std::max(gutter, ceilWidth(note, kNote) + kNoteGap + ceilWidth(value, kValue) + 40);
         mostNotes = std::max(mostNotes, row.notes.size());
     }
     l.left = kMargin + gutter;
@@ -133,8 +136,8 @@ Layout layoutOf(const ContactSheet& sheet) {
         gutter;
     l.content = std::max({pictures, texts, kLeastContent});
 
-    l.top = kMargin + 20 + (sheet.subtitle.empty() ? 0 : 26) + 18 + kCaptionHeight;
-    l.rowStep = std::max(l.picture.y, 38 + kNoteStep * int(mostNotes)) + kGap;
+    l.top = kMargin + 24 + (sheet.subtitle.empty() ? 0 : 30) + 20 + kCaptionHeight;
+    l.rowStep = std::max(l.picture.y, 36 + kNoteStep * int(mostNotes)) + kGap;
     int bottom = l.top + l.rowStep * int(sheet.rows.size());
     bottom += (kPlotGap + kPlotHeight) * int(sheet.plots.size());
     bottom += sheet.footer.empty() ? 0 : 34;
@@ -143,8 +146,8 @@ Layout layoutOf(const ContactSheet& sheet) {
 }
 
 void drawHeading(Canvas& canvas, const ContactSheet& sheet, const Layout& l) {
-    canvas.text({kMargin, kMargin + 18}, sheet.title, kTitle);
-    canvas.text({kMargin, kMargin + 44}, sheet.subtitle, kSubtitle);
+    canvas.text({kMargin, kMargin + 22}, sheet.title, kTitle);
+    canvas.text({kMargin, kMargin + 52}, sheet.subtitle, kSubtitle);
     for (std::size_t i = 0; i < sheet.columns.size(); ++i) {
         TextStyle style = kCaption;
         if (l.eventColumn == i)
@@ -159,9 +162,13 @@ void drawRow(Canvas& canvas, const SheetRow& row, const ContactSheet& sheet, con
     canvas.fill({kMargin, y}, {3, height}, row.color);
     TextStyle name = kName;
     name.color = row.color;
-    canvas.text({kMargin + 16, y + 16}, row.name, name);
-    for (std::size_t i = 0; i < row.notes.size(); ++i)
-        canvas.text({kMargin + 16, y + 42 + kNoteStep * int(i)}, row.notes[i], kNote);
+    canvas.text({kMargin + 16, y + 18}, row.name, name);
+    int baseline = y + 46;
+    for (const auto& [note, value] : row.notes) {
+        canvas.text({kMargin + 16, baseline}, note, kNote);
+        canvas.text({l.left - 24, baseline}, value, kValue);
+        baseline += kNoteStep;
+    }
     for (std::size_t i = 0; i < sheet.columns.size(); ++i) {
         const glm::ivec2 corner(l.columnX(i), y);
         if (i < row.pictures.size() && !row.pictures[i].pixels().empty())

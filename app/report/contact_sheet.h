@@ -14,8 +14,9 @@ namespace afterglow {
 /// The pictures of one variant, or of the reference.
 struct SheetRow {
     std::string name;
-    glm::u8vec3 color{220};              ///< sRGB; see sheetColor()
-    std::vector<std::string> notes = {}; ///< short lines below the name: "t90  10 frames"
+    glm::u8vec3 color{220}; ///< sRGB; see sheetColor()
+    /// Short lines below the name, and the value at the end of each: "t90", "10".
+    std::vector<std::pair<std::string, std::string>> notes = {};
     /// One per column, all of one size; an empty one is left blank.
     std::vector<Image<glm::u8vec4>> pictures = {};
 };
@@ -56,8 +57,7 @@ struct ContactSheet {
 /// Draws it. Pictures wider than 320 pixels are reduced by a whole factor (averages of sRGB
 /// values), ones narrower than 120 enlarged by one (without smoothing); all others are shown pixel
 /// for pixel. The same sheet gives the same pixels. A row with more pictures than there are
-/// columns, or pictures of unequal sizes, is a std::logic_error. Texts are ASCII; other characters
-/// show as a box.
+/// columns, or pictures of unequal sizes, is a std::logic_error. Texts are UTF-8; see typeface.h.
 Image<glm::u8vec4> drawContactSheet(const ContactSheet& sheet);
 
 /// Colors that are told apart on the dark ground, by those with color-blind eyes as well: 0 is the

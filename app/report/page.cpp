@@ -1,5 +1,7 @@
 #include "app/report/page.h"
 
+#include "app/base/embedded.h"
+
 #include <stdexcept>
 
 namespace afterglow {
@@ -36,18 +38,26 @@ std::string scriptJson(const nlohmann::ordered_json& data) {
     return escaped;
 }
 
+/// The files of assets/report with this ending, one after the other.
+std::string assets(std::string_view ending) {
+    std::string bytes;
+    for (const EmbeddedFile& file : embeddedReport())
+        if (file.name.ends_with(ending))
+            bytes += file.bytes;
+    return bytes;
+}
+
 } // namespace
 
 std::string reportPage(std::string_view title, const nlohmann::ordered_json& data,
                        const PictureStore& pictures) {
-    const ReportAssets assets = reportAssets();
     const auto part = [&](std::string_view name) -> std::string {
         if (name == "title")
             return htmlText(title);
         if (name == "style")
-            return std::string(assets.style);
+            return assets(".css");
         if (name == "script")
-            return std::string(assets.script);
+            return assets(".js");
         if (name == "data")
             return scriptJson(data);
         if (name == "pictures")
@@ -56,7 +66,8 @@ std::string reportPage(std::string_view title, const nlohmann::ordered_json& dat
     };
 
     std::string page;
-    std::string_view rest = assets.html;
+    const std::string html = assets(".html");
+    std::string_view rest = html;
     for (auto open = rest.find("{{"); open != rest.npos; open = rest.find("{{")) {
         const auto close = rest.find("}}", open);
         if (close == rest.npos)

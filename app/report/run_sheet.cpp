@@ -40,18 +40,6 @@ std::vector<int> columnsOf(int frames, std::optional<int> event) {
     return {chosen.begin(), chosen.end()};
 }
 
-/// Values of a level's grid: about five of them up to `largest`.
-std::vector<std::pair<double, std::string>> levelsUpTo(double largest) {
-    const double unit = std::pow(10.0, std::floor(std::log10(largest)));
-    const double step = largest / unit < 2.0   ? unit / 2.0
-                        : largest / unit < 5.0 ? unit
-                                               : 2.0 * unit;
-    std::vector<std::pair<double, std::string>> levels;
-    for (int i = 0; i * step <= largest; ++i)
-        levels.emplace_back(i * step, textOf("%.3g", i * step));
-    return levels;
-}
-
 /// The sheet of one run.
 class RunSheet {
 public:
@@ -68,7 +56,7 @@ public:
 
 private:
     Image<glm::u8vec4> picture(const std::string& row, int frame) const;
-    std::vector<std::string> notesOf(const std::string& variant) const;
+    std::vector<std::pair<std::string, std::string>> notesOf(const std::string& variant) const;
     bool hasResponse() const;
     SheetCurve curveOf(std::size_t variant, const char* metric, FrameRange range) const;
     SheetPlot responsePlot() const;
@@ -122,7 +110,7 @@ SheetPlot RunSheet::responsePlot() const {
         const Json& t90 = summary_.at(curve.name).at("t90");
         if (!t90.is_null() && range.contains(*event_ + t90.get<int>())) {
             curve.marked = *event_ + t90.get<int>();
-            curve.mark = std::to_string(t90.get<int>());
+            curve.mark = "t90 " + std::to_string(t90.get<int>());
         }
         plot.curves.push_back(std::move(curve));
     }
@@ -145,27 +133,28 @@ SheetPlot RunSheet::errorPlot() const {
                 largest = value;
     }
     plot.yMax = largest > 0.0 ? largest * 1.1 : 1.0;
-    plot.levels = levelsUpTo(plot.yMax);
     return plot;
 }
 
-std::vector<std::string> RunSheet::notesOf(const std::string& variant) const {
+std::vector<std::pair<std::string, std::string>>
+RunSheet::notesOf(const std::string& variant) const {
     const Json& summary = summary_.at(variant);
-    std::vector<std::string> notes;
-    const auto note = [&](const char* format, const char* key) {
+    std::vector<std::pair<std::string, std::string>> notes;
+    const auto note = [&](const char* label, const char* format, const char* key) {
         if (summary.contains(key) && !summary.at(key).is_null())
-            notes.push_back(textOf(format, summary.at(key).get<double>()));
+            notes.emplace_back(label, textOf(format, summary.at(key).get<double>()));
     };
     if (summary.contains("response_settled") && !summary.at("response_settled").is_null()) {
-        notes = {"t50 " + framesText(summary, "t50"), "t90 " + framesText(summary, "t90"),
-                 "t99 " + framesText(summary, "t99")};
-        note("ghost %.1f", "ghost_frames");
+        notes = {{"t50", framesText(summary, "t50")},
+                 {"t90", framesText(summary, "t90")},
+                 {"t99", framesText(summary, "t99")}};
+        note("ghost", "%.1f", "ghost_frames");
     } else {
-        note("ghost %.3f", "ghost_energy");
+        note("ghost", "%.3f", "ghost_energy");
     }
-    note("rmse %.4f", "rmse_settled");
+    note("RMSE", "%.4f", "rmse_settled");
     const Json& spent = timing_.at(variant).at("ms_per_frame");
-    notes.push_back(spent.is_null() ? "- ms" : textOf("%.1f ms", spent.get<double>()));
+    notes.emplace_back("ms", spent.is_null() ? "-" : textOf("%.1f", spent.get<double>()));
     return notes;
 }
 
@@ -188,7 +177,7 @@ Image<glm::u8vec4> RunSheet::draw() const {
         sheet.rows.push_back(std::move(row));
     }
     SheetRow reference{.name = "reference", .color = kReferenceColor};
-    reference.notes = {textOf("%d spp", experiment_.referenceSamples)};
+    reference.notes = {{"samples", textOf("%d", experiment_.referenceSamples)}};
     for (const int frame : frames_)
         reference.pictures.push_back(
             picture(reference.name, plan_.moments[momentAt(plan_.moments, frame)].first));

@@ -12,9 +12,10 @@ constexpr glm::u8vec3 kAxis{74, 81, 94};
 constexpr glm::u8vec3 kLevel{112, 120, 134};
 constexpr glm::u8vec3 kGround{15, 17, 21};
 
-constexpr TextStyle kTitle{.size = 1.6f, .pen = 1.6f, .color = {236, 239, 244}};
-constexpr TextStyle kTick{.size = 1.3f, .pen = 1.2f, .color = {150, 158, 171}};
-constexpr TextStyle kLegend{.size = 1.4f, .pen = 1.3f, .color = {190, 196, 206}};
+constexpr TextStyle kTitle{.size = 18, .weight = Weight::Medium, .color = {236, 239, 244}};
+constexpr TextStyle kTick{.size = 14, .color = {150, 158, 171}};
+constexpr TextStyle kLegend{.size = 16, .color = {190, 196, 206}};
+constexpr TextStyle kMark{.size = 16, .weight = Weight::Medium};
 
 constexpr int kTitleHeight = 42, kAxisHeight = 44;
 constexpr int kLevelWidth = 44; ///< to the right of the axes, for the levels' names
@@ -142,9 +143,9 @@ void drawMarks(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
         canvas.dot(at, 5.5f, kGround);
         canvas.dot(at, 4.0f, curve.color);
 
-        TextStyle style = kLegend;
+        TextStyle style = kMark;
         style.color = curve.color;
-        const float width = style.size * textWidth(curve.mark);
+        const float width = style.width(curve.mark);
         Box box{{at.x + 10.0f, at.y + 6.0f}, {at.x + 10.0f + width, at.y + 20.0f}};
         const auto overlaps = [&](const Box& b) {
             return box.min.x < b.max.x + 6.0f && b.min.x < box.max.x + 6.0f &&
@@ -158,8 +159,9 @@ void drawMarks(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
         const glm::vec2 baseline(box.min.x, box.max.y - 3.0f);
         TextStyle halo = style; // keeps lines that run behind the text away from it
         halo.color = kGround;
-        halo.pen += 5.0f;
-        canvas.text(baseline, curve.mark, halo);
+        for (int y = -2; y <= 2; ++y)
+            for (int x = -2; x <= 2; ++x)
+                canvas.text(baseline + glm::vec2(x, y), curve.mark, halo);
         canvas.text(baseline, curve.mark, style);
     }
 }
@@ -169,7 +171,7 @@ void drawLegend(Canvas& canvas, const SheetPlot& plot, glm::vec2 rightEnd) {
         TextStyle style = kLegend;
         style.align = 1.0f;
         canvas.text(rightEnd, curve->name, style);
-        rightEnd.x -= std::ceil(style.size * textWidth(curve->name)) + 10.0f;
+        rightEnd.x -= std::ceil(style.width(curve->name)) + 10.0f;
         const float y = std::floor(rightEnd.y - 5.0f) + 0.5f;
         canvas.line({rightEnd.x - 20.0f, y}, {rightEnd.x, y}, 2.5f, curve->color);
         rightEnd.x -= 44.0f;
@@ -182,8 +184,7 @@ void drawPlot(Canvas& canvas, const SheetPlot& plot, glm::ivec2 corner, glm::ive
     const Axes axes = axesOf(plot, corner, size);
     const glm::vec2 title = glm::vec2(corner) + glm::vec2(0.0f, 14.0f);
     canvas.text(title, plot.title, kTitle);
-    canvas.text(title + glm::vec2(kTitle.size * textWidth(plot.title) + 18.0f, 0.0f), plot.yLabel,
-                kTick);
+    canvas.text(title + glm::vec2(kTitle.width(plot.title) + 18.0f, 0.0f), plot.yLabel, kTick);
     drawLegend(canvas, plot, {axes.lowerRight.x, corner.y + 14.0f});
     drawGrid(canvas, plot, axes);
     drawEvents(canvas, plot, axes);

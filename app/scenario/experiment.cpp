@@ -13,7 +13,7 @@ namespace afterglow {
 std::vector<ExperimentInfo> builtInExperiments() {
     std::vector<ExperimentInfo> infos;
     for (const EmbeddedFile& file : embeddedExperiments()) {
-        const Experiment experiment = parseExperiment(file.text, std::string(file.name) + ".json");
+        const Experiment experiment = parseExperiment(file.bytes, file.name);
         infos.push_back({experiment.name, experiment.description});
     }
     return infos;
@@ -26,9 +26,10 @@ Experiment loadExperiment(std::string_view nameOrPath) {
 
     std::vector<std::string_view> known;
     for (const EmbeddedFile& file : embeddedExperiments()) {
-        if (file.name == nameOrPath)
-            return parseExperiment(file.text, std::string(file.name) + ".json");
-        known.push_back(file.name);
+        const std::string_view name = file.name.substr(0, file.name.rfind('.'));
+        if (name == nameOrPath)
+            return parseExperiment(file.bytes, file.name);
+        known.push_back(name);
     }
     throw UsageError(unknownName("experiment", nameOrPath, known) +
                      "; the name of a file ends in .json");

@@ -140,7 +140,7 @@ std::span<const Preset> presets() {
     static const std::vector<Preset> all = [] {
         std::vector<Preset> parsed;
         for (const EmbeddedFile& file : embeddedPresets())
-            parsed.push_back(parsePreset(file.text, std::string(file.name) + ".json"));
+            parsed.push_back(parsePreset(file.bytes, file.name));
         return parsed;
     }();
     return all;

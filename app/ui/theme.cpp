@@ -1,50 +1,35 @@
 #include "app/ui/theme.h"
 
+#include "app/base/embedded.h"
+
 #include <cmath>
-#include <filesystem>
 
 namespace afterglow {
 namespace {
-
-struct FontFiles {
-    const char* text;
-    const char* strong;
-};
-
-constexpr FontFiles kFontFiles[] = {
-    {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
-     "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Medium.ttf"},
-    {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-     "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"},
-    {"/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-     "/usr/share/fonts/truetype/liberation/LiberationSans-Bold.ttf"},
-};
 
 // Latin, Greek for the formulas, the dashes and quotes of running text, arrows, and the minus.
 constexpr ImWchar kGlyphs[] = {0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027,
                                0x2190, 0x2193, 0x2212, 0x2212, 0};
 
-ImFont* load(const char* file, float pixels) {
+ImFont* load(const EmbeddedFile& file, float pixels) {
     ImFontConfig config;
     config.OversampleH = 3;
     config.OversampleV = 2;
-    return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, std::round(pixels), &config, kGlyphs);
+    config.FontDataOwnedByAtlas = false;
+    // Dear ImGui does not write there.
+    return ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<char*>(file.bytes.data()),
+                                                      int(file.bytes.size()), std::round(pixels),
+                                                      &config, kGlyphs);
 }
 
 } // namespace
 
 Fonts loadFonts(float scale) {
-    for (const FontFiles& files : kFontFiles)
-        if (std::filesystem::is_regular_file(files.text) &&
-            std::filesystem::is_regular_file(files.strong))
-            return {.text = load(files.text, 15.0f * scale),
-                    .strong = load(files.strong, 15.0f * scale),
-                    .large = load(files.strong, 22.0f * scale),
-                    .small = load(files.text, 13.0f * scale)};
-    ImFontConfig config;
-    config.SizePixels = std::round(13.0f * scale);
-    ImFont* const own = ImGui::GetIO().Fonts->AddFontDefault(&config);
-    return {own, own, own, own};
+    const EmbeddedFile &regular = embeddedFonts()[0], &medium = embeddedFonts()[1];
+    return {.text = load(regular, 15.0f * scale),
+            .strong = load(medium, 15.0f * scale),
+            .large = load(medium, 22.0f * scale),
+            .small = load(regular, 13.0f * scale)};
 }
 
 void applyTheme(float scale) {

@@ -45,8 +45,7 @@ struct Fonts {
     ImFont* small = nullptr;
 };
 
-/// Loads the first of a few well-known fonts that the system has (third_party/install.sh installs
-/// one), or else Dear ImGui's own. `scale`: pixels per unit of the design.
+/// Loads the typeface that is linked into the program. `scale`: pixels per unit of the design.
 Fonts loadFonts(float scale);
 
 /// Sets the colors and the sizes of the current Dear ImGui context.

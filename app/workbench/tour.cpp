@@ -265,7 +265,7 @@ const std::vector<TourStop>& tourStops() {
     static const std::vector<TourStop> stops = [] {
         std::vector<TourStop> all;
         for (const EmbeddedFile& file : embeddedTour())
-            for (TourStop& stop : parseTour(file.text, std::string(file.name) + ".json"))
+            for (TourStop& stop : parseTour(file.bytes, file.name))
                 all.push_back(std::move(stop));
         return all;
     }();

@@ -1,18 +1,14 @@
 #pragma once
 
+#include "renderer/base/embedded_file.h"
+
 #include <optional>
 #include <span>
 #include <string_view>
 
 namespace afterglow {
 
-/// A file that is part of the executable: a shader by its path below shaders/, or a noise table as
-/// "noise/<file>".
-struct EmbeddedFile {
-    std::string_view name, bytes;
-};
-
-/// All of them, ordered by name. Written by shaders/embed.cmake.
+/// The shaders, by their paths below shaders/, and the noise tables as "noise/<file>".
 std::span<const EmbeddedFile> embeddedFiles();
 
 inline std::optional<std::string_view> embeddedFile(std::string_view name) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -135,29 +137,57 @@ TEST_CASE("a sheet whose pictures do not fit together is our mistake") {
     CHECK(drawContactSheet({.title = "nothing at all"}).size().x > 0);
 }
 
-TEST_CASE("every character has strokes of its own within its width, but for the space") {
-    std::vector<std::vector<Polyline>> seen;
-    for (char c = ' '; c < 127; ++c) {
-        CAPTURE(c);
-        const std::string_view text(&c, 1);
-        const std::vector<Polyline> strokes = textStrokes(text);
-        CHECK(strokes.empty() == (c == ' '));
-        for (const Polyline& points : strokes) {
-            CHECK(points.size() >= 2);
-            for (const glm::vec2 p : points) {
-                CHECK(p.x >= -0.5f);
-                CHECK(p.x <= textWidth(text) + 0.5f);
-                CHECK(p.y >= -2.1f);
-                CHECK(p.y <= 8.1f);
-            }
+TEST_CASE("a text in any alphabet of the typeface has its letters, and what it lacks is a box") {
+    const auto lettersOf = [](std::string_view text) {
+        return glyphsOf(text, 16.0f, Weight::Regular, 0.0f);
+    };
+    const auto pixelsOf = [](const Glyph& glyph) {
+        return std::vector(glyph.coverage.pixels().begin(), glyph.coverage.pixels().end());
+    };
+    const auto shapeOf = [&](std::string_view text) { return pixelsOf(lettersOf(text).at(0)); };
+    const auto box = shapeOf("\u4e2d"); // Roboto has no Chinese
+    CHECK(box == shapeOf("\u6587"));
+    CHECK(std::ranges::max(box) > 100);
+    for (const char* letter : {"L", "\u00e4", "\u2014", "\u00e9", "\u03bb", "\u2019"})
+        CHECK(shapeOf(letter) != box);
+    CHECK(lettersOf("L\u00e4mpchen \u2014 \u00e9\u00e9n").size() == 12); // spaces have none
+    CHECK(lettersOf("\u00e4")[0].corner.y < lettersOf("a")[0].corner.y); // the dots are above it
+
+    // Each byte that is no UTF-8 is a character, and the next letter is itself again.
+    const std::string broken = "\303a\342\202a\377";
+    CHECK(lettersOf(broken).size() == 6);
+    CHECK(shapeOf(broken) == shapeOf("\xff"));
+    CHECK(shapeOf(broken.substr(1)) == shapeOf("a"));
+}
+
+TEST_CASE("a text is as wide as its letters reach, and figures line up") {
+    const auto width = [](std::string_view text, Weight weight = Weight::Regular) {
+        return textWidth(text, 20.0f, weight);
+    };
+    CHECK(width("") == 0.0f);
+    CHECK(width("ab") == doctest::Approx(width("a") + width("b")).epsilon(0.02));
+    CHECK(width("AV") < width("A") + width("V")); // set closer
+    for (const char figure : std::string("023456789"))
+        CHECK(width(std::string(1, figure)) == width("1"));
+    CHECK(width("text", Weight::Medium) > width("text"));
+    for (const std::string text : {"W", "response", "\u00e9\u00e9n"})
+        for (const Glyph& glyph : glyphsOf(text, 20.0f, Weight::Regular, 0.0f)) {
+            CHECK(glyph.corner.x >= -1);
+            CHECK(glyph.corner.x + glyph.coverage.size().x <= width(text) + 1.0f);
         }
-        CHECK(std::find(seen.begin(), seen.end(), strokes) == seen.end());
-        seen.push_back(strokes);
-    }
-    CHECK(textWidth("ab") > textWidth("a") + textWidth("b"));
-    CHECK(textWidth("1") == textWidth("8")); // figures line up
-    CHECK(textWidth("") == 0.0f);
-    CHECK(textStrokes("\xc3") == textStrokes("\x07"));
+}
+
+TEST_CASE("a title in another language is drawn, in its color and with smooth edges") {
+    ContactSheet sheet{.title = "L\u00e4mpchen \u2014 \u00e9\u00e9n"};
+    const Image<glm::u8vec4> drawn = drawContactSheet(sheet);
+    sheet.title = "Lampchen - een";
+    const Image<glm::u8vec4> plain = drawContactSheet(sheet);
+    CHECK_FALSE(std::ranges::equal(plain.pixels(), drawn.pixels()));
+    std::set<int> levels;
+    for (const glm::u8vec4& pixel : drawn.pixels())
+        levels.insert(pixel.r);
+    CHECK(shows(drawn, {236, 239, 244})); // strokes are wide enough to be whole somewhere
+    CHECK(levels.size() > 20);
 }
 
 TEST_CASE("a straight line covers as much as its width says, and overlaps do not add up") {
