@@ -84,7 +84,8 @@ int dispatch(CLI::App& app, const Words& words, HiddenContextFactory hiddenConte
     } else if (command == "sweep") {
         runSweepCommand(words.sweep.experiment.parse(), words.sweep.parseSweep(), hiddenContext);
     } else if (command == "merge") {
-        runMergeCommand({words.merge.parts.begin(), words.merge.parts.end()}, *words.merge.out);
+        runMergeCommand({words.merge.parts.begin(), words.merge.parts.end()}, *words.merge.out,
+                        words.merge.fresh);
     } else if (command == "report") {
         runReportCommand(*words.report.folder);
     } else if (command == "import-frames") {

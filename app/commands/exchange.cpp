@@ -3,6 +3,7 @@
 #include "app/base/interrupt.h"
 #include "app/experiment/export_frames.h"
 #include "app/experiment/run_files.h"
+#include "app/experiment/run_owner.h"
 #include "app/experiment/runner.h"
 #include "app/measure/summary.h"
 #include "app/scenario/presets.h"
@@ -153,37 +154,25 @@ Experiment importedExperiment(const ImportOptions& options) {
     return experiment;
 }
 
-bool isSameRun(Experiment a, Experiment b) {
-    a.variants.clear();
-    b.variants.clear();
-    return toJson(a) == toJson(b);
-}
-
 /// The external variants of a run: those that were imported into its folder before, as far as their
 /// measures still hold, and the new one.
-std::vector<Variant> externalVariants(const std::string& name, const Experiment& experiment,
-                                      const RunPlan& plan, const ReferenceMaker& maker,
-                                      const fs::path& folder) {
+std::vector<Variant> externalVariants(const ImportOptions& options, const Experiment& experiment,
+                                      const RunPlan& plan, const ReferenceMaker& maker) {
+    const fs::path folder = options.out;
+    const std::string& name = options.name;
     const Variant added{.name = name, .filter = Filter::None, .external = true};
     std::vector<Variant> variants;
-    const fs::path file = folder / "experiment.json";
-    if (fs::exists(file)) {
-        const Json json = readJson(file);
-        if (!json.is_object() || !json.contains("experiment"))
-            throw InputError(file.string() + ": \"experiment\" is missing");
-        const Experiment before = parseExperiment(json.at("experiment").dump(), file.string());
-        const bool isSame = isSameRun(before, experiment);
-        for (const Variant& variant : before.variants) {
+    if (const auto before = options.fresh ? std::nullopt : experimentIn(folder))
+        for (const Variant& variant : parseExperiment(before->dump(), folder.string()).variants) {
             if (!variant.external || variant.name == name)
                 continue;
-            if (isSame && isMeasured(variant, experiment, plan, maker, folder))
+            if (isMeasured(variant, experiment, plan, maker, folder))
                 variants.push_back(variant);
             else
-                log(LogLevel::Warning, (folder / variant.name).string() +
-                                           " was measured by another program or in another "
-                                           "experiment, and is left out; import it again");
+                log(LogLevel::Warning,
+                    (folder / variant.name).string() +
+                        " was measured by another program, and is left out; import it again");
         }
-    }
     variants.push_back(added);
     return variants;
 }
@@ -212,25 +201,30 @@ void runImportCommand(const ImportOptions& options, HiddenContextFactory hiddenC
     const RunPlan plan = planOf(experiment);
     const ImportedFrames frames(options.name, options.frames, options.quantity, experiment.size,
                                 experiment.frames());
+    if (!options.fresh)
+        requireFolderFor({.experiment = describe(experiment), .anyVariants = true}, options.out);
     const OutputFolder out(options.out);
     Headless headless(options.context, hiddenContext);
     headless.resize(experiment.size);
     ReferenceStore store = makeStore(options.cache, headless);
-    for (const Variant& variant :
-         externalVariants(options.name, experiment, plan, store.maker(), out.path()))
+    for (const Variant& variant : externalVariants(options, experiment, plan, store.maker()))
         experiment.variants.push_back(variant);
     catchInterrupts();
     {
         Progress progress(workOf(experiment, plan, {}));
         runExperiment(experiment, plan, headless.renderer, headless.gl, store, out,
-                      {.imported = &frames}, progress);
+                      {.fresh = options.fresh, .imported = &frames}, progress);
     }
+    Json summary = readJson(out.path() / "summary.json");
+    for (const Variant& variant : experiment.variants)
+        if (variant.external)
+            summary["variants"][variant.name]["mean"] =
+                readJson(out.path() / variant.name / "import.json").at("mean");
     std::printf("%s: %s\n%dx%d, %d frames; %s is scored by its %s\n\n%s\nreport: %s\n",
                 experiment.name.c_str(), experiment.description.c_str(), experiment.size.x,
                 experiment.size.y, experiment.frames(), options.name.c_str(),
                 std::string(nameOf(frames.quantity())).c_str(),
-                tableOf(readJson(out.path() / "summary.json"), readJson(out.path() / "timing.json"))
-                    .c_str(),
+                tableOf(summary, readJson(out.path() / "timing.json")).c_str(),
                 (out.path() / "report.html").c_str());
 }
 

@@ -42,6 +42,7 @@ struct ImportOptions {
     std::optional<Quantity> quantity;
     std::vector<std::string> filters; ///< as variants, instead of the experiment's own
     bool only = false;                ///< without variants of ours
+    bool fresh = false;               ///< replace what the folder holds
     std::optional<int> samples;       ///< of each reference, per pixel
     CacheOptions cache;
     ContextWish context;

@@ -29,6 +29,7 @@ void ImportWords::addTo(CLI::App& app) {
         addOption(app, "--filter", filters, "A,B,...",
                   "Filters and presets of ours, instead of the experiment's own variants");
     app.add_flag("--only", only, "None of ours")->excludes(filterOption);
+    app.add_flag("--fresh", fresh, "Replace what DIR holds");
     addOption(app, "--spp", samples, "N",
               "Samples a pixel of each reference, instead of the experiment's own");
     addOption(app, "--cache", cache, "DIR",
@@ -54,6 +55,7 @@ ImportOptions ImportWords::parse() const {
     if (filters)
         options.filters = parseList("--filter", *filters);
     options.only = only;
+    options.fresh = fresh;
     if (samples)
         options.samples = int(parseWhole("--spp", *samples, 1, kMostSamples));
     options.cache = parseCache(cache, noCache);

@@ -3,6 +3,7 @@
 #include "app/base/interrupt.h"
 #include "app/commands/arguments.h"
 #include "app/experiment/run_files.h"
+#include "app/experiment/run_owner.h"
 #include "app/measure/summary.h"
 #include "app/report/report.h"
 #include "app/scenario/presets.h"
@@ -108,18 +109,28 @@ void runAll(const std::vector<Experiment>& experiments, const ExperimentOptions&
         plans.push_back(planOf(experiment));
         work += workOf(experiment, plans.back(), options.run.part);
     }
+    const bool isSuite = experiments.size() > 1;
+    const auto folderOf = [&](const Experiment& experiment) {
+        return isSuite ? fs::path(options.out) / experiment.name : fs::path(options.out);
+    };
+    if (!options.run.fresh) {
+        if (isSuite)
+            requireFolderForRuns(options.out);
+        for (const Experiment& experiment : experiments)
+            requireFolderFor({describe(experiment), options.run.part}, folderOf(experiment));
+    }
     const OutputFolder out(options.out);
     Headless headless(options.context, hiddenContext);
     ReferenceStore store = makeStore(options.cache, headless);
-    const bool isSuite = experiments.size() > 1;
+    if (isSuite)
+        takeFolderForRuns(out, options.run.fresh);
     catchInterrupts();
     {
         Progress progress(work);
         for (std::size_t i = 0; i < experiments.size(); ++i) {
             headless.resize(experiments[i].size);
-            const OutputFolder folder = isSuite ? out.subfolder(experiments[i].name) : out;
-            runExperiment(experiments[i], plans[i], headless.renderer, headless.gl, store, folder,
-                          options.run, progress);
+            runExperiment(experiments[i], plans[i], headless.renderer, headless.gl, store,
+                          OutputFolder(folderOf(experiments[i])), options.run, progress);
         }
     }
     if (!options.run.part.isWhole()) {
@@ -129,7 +140,7 @@ void runAll(const std::vector<Experiment>& experiments, const ExperimentOptions&
     }
     tellSoftwareRenderer(headless.gl);
     for (const Experiment& experiment : experiments)
-        printRun(experiment, isSuite ? out.path() / experiment.name : out.path());
+        printRun(experiment, folderOf(experiment));
     if (isSuite)
         writeSuite(out);
     std::printf("report: %s\n", (out.path() / "report.html").c_str());
@@ -171,9 +182,9 @@ void runSweepCommand(const ExperimentOptions& options, const Sweep& sweep,
     runAll(experiments, options, hiddenContext);
 }
 
-void runMergeCommand(const std::vector<fs::path>& parts, const std::string& out) {
+void runMergeCommand(const std::vector<fs::path>& parts, const std::string& out, bool fresh) {
     const OutputFolder folder(out);
-    mergeRuns(parts, folder);
+    mergeRuns(parts, folder, fresh);
     std::printf("report: %s\n", (folder.path() / "report.html").c_str());
 }
 

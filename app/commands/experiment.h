@@ -51,7 +51,8 @@ void runSweepCommand(const ExperimentOptions& options, const Sweep& sweep,
                      HiddenContextFactory hiddenContext);
 
 /// Puts the parts of a run together and prints its tables.
-void runMergeCommand(const std::vector<std::filesystem::path>& parts, const std::string& out);
+void runMergeCommand(const std::vector<std::filesystem::path>& parts, const std::string& out,
+                     bool fresh);
 
 /// Makes report.html of a run, or of a folder of runs, anew.
 void runReportCommand(const std::string& folder);

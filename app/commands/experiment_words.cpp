@@ -38,7 +38,7 @@ void addCommon(CLI::App& app, ExperimentWords& words) {
               "shadows, ao, both or separate, instead of the experiment's own");
     addOption(app, "--spp", words.samples, "N", "Samples a pixel of each reference, likewise");
     app.add_flag("--quick", words.quick, "96x54 pixels and an eighth of the reference samples");
-    app.add_flag("--fresh", words.fresh, "Do again what DIR already holds");
+    app.add_flag("--fresh", words.fresh, "Do again, and replace, what DIR holds");
     addOption(app, "--part", words.part, "K/N",
               "Only the K-th of N shares of the frames; see afterglow merge");
     addOption(app, "--cache", words.cache, "DIR",
@@ -135,6 +135,7 @@ void MergeWords::addTo(CLI::App& app) {
         ->type_name("DIR");
     addOption(app, "--out,-o", out, "DIR", "Folder of the whole run; made if it is missing")
         ->required();
+    app.add_flag("--fresh", fresh, "Replace another run that DIR holds");
     app.footer("Examples:\n"
                "  parallel afterglow experiment my.json --part {}/4 --out out/part{} ::: 1 2 3 4\n"
                "  afterglow merge out/part1 out/part2 out/part3 out/part4 --out out/my\n\n" +

@@ -31,6 +31,7 @@ struct SweepWords {
 struct MergeWords {
     Texts parts;
     Text out;
+    bool fresh = false;
 
     void addTo(CLI::App& app);
 };

@@ -1,6 +1,7 @@
 // mergeRuns(): what parts of a run have written, as one run would have.
 
 #include "app/experiment/run_files.h"
+#include "app/experiment/run_owner.h"
 #include "app/experiment/runner.h"
 #include "app/measure/metrics_table.h"
 #include "renderer/base/error.h"
@@ -97,8 +98,8 @@ void mergeVariant(const std::string& name, const std::vector<PartFolder>& parts,
     markFinished(out, "merged", timings);
 }
 
-void mergeOne(const std::vector<fs::path>& folders, const OutputFolder& out) {
-    const std::vector<PartFolder> parts = readParts(folders);
+void mergeOne(const std::vector<PartFolder>& parts, const OutputFolder& out, bool fresh) {
+    takeFolder({parts.front().account.at("experiment")}, out, fresh);
     Json account = parts.front().account;
     account.erase("part");
     account["references"] = Json::array();
@@ -119,17 +120,17 @@ void mergeOne(const std::vector<fs::path>& folders, const OutputFolder& out) {
         const std::string name = variant.at("name");
         mergeVariant(name, parts, out.subfolder(name));
     }
-    out.writeJson("experiment.json", account);
+    writeAccount(out, account);
     finishRun(out);
 }
 
 } // namespace
 
-void mergeRuns(const std::vector<fs::path>& parts, const OutputFolder& out) {
+void mergeRuns(const std::vector<fs::path>& parts, const OutputFolder& out, bool fresh) {
     if (parts.empty())
         throw InputError("there is nothing to merge");
     if (fs::exists(parts.front() / "experiment.json"))
-        return mergeOne(parts, out);
+        return mergeOne(readParts(parts), out, fresh);
     std::set<std::string> names;
     if (fs::is_directory(parts.front()))
         for (const auto& entry : fs::directory_iterator(parts.front()))
@@ -137,12 +138,18 @@ void mergeRuns(const std::vector<fs::path>& parts, const OutputFolder& out) {
                 names.insert(entry.path().filename().string());
     if (names.empty())
         throw InputError(parts.front().string() + ": there is no experiment.json in it");
+    std::map<std::string, std::vector<PartFolder>> runs;
     for (const std::string& name : names) {
         std::vector<fs::path> folders;
         for (const fs::path& part : parts)
             folders.push_back(part / name);
-        mergeOne(folders, out.subfolder(name));
+        runs[name] = readParts(folders);
+        if (!fresh)
+            requireFolderFor({runs[name].front().account.at("experiment")}, out.path() / name);
     }
+    takeFolderForRuns(out, fresh);
+    for (const auto& [name, run] : runs)
+        mergeOne(run, out.subfolder(name), fresh);
     writeSuite(out);
 }
 

@@ -24,8 +24,9 @@ void finishRun(const OutputFolder& folder);
 
 /// Puts the parts of a run, or of a folder of runs, together: the files that one run would have
 /// written, byte for byte but for times. InputError if a part is missing, or if they are not parts
-/// of one run.
-void mergeRuns(const std::vector<std::filesystem::path>& parts, const OutputFolder& out);
+/// of one run. Another run in the folder is a UsageError unless `fresh`, which replaces it.
+void mergeRuns(const std::vector<std::filesystem::path>& parts, const OutputFolder& out,
+               bool fresh);
 
 /// The page of a folder of runs: report.html.
 void writeSuite(const OutputFolder& folder);

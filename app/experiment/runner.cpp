@@ -3,13 +3,19 @@
 #include "app/base/machine.h"
 #include "app/experiment/import_frames.h"
 #include "app/experiment/run_files.h"
+#include "app/experiment/run_owner.h"
 #include "app/measure/meter.h"
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"
+#include "renderer/base/log.h"
 #include "renderer/gl/errors.h"
+#include "renderer/image/metrics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 
@@ -19,6 +25,9 @@ using Json = nlohmann::ordered_json;
 
 // A frame costs about as much as this many samples of a reference: for the progress line only.
 constexpr double kFrameWork = 6.0;
+
+// Beyond it the settled mean of imported frames is taken for a sign that they hold something else.
+constexpr double kLargestBias = 0.1;
 
 Image<glm::u8vec4> grayOf(const Image<float>& map) {
     Image<glm::u8vec4> gray(map.size());
@@ -182,15 +191,31 @@ void Run::importVariant(const Variant& variant) {
     const Settings settings = settingsOf(variant, experiment_.signal);
     Meter meter(experiment_, plan_, truths_);
     MetricsTable table;
+    double settledMean = 0.0, referenceMean = 0.0; // both times the number of settled frames
     renderer_.resetHistory();
     for (int frame = own_.first; frame < own_.end; ++frame) {
         renderer_.render(inputAt(experiment_, plan_, frame), settings);
-        measure(meter, frame, variant, options_.imported->show(frame, renderer_, settings), table,
-                out);
+        const FrameImages images = options_.imported->show(frame, renderer_, settings);
+        measure(meter, frame, variant, images, table, out);
+        if (plan_.settled.contains(frame)) {
+            const Truth& truth = truths_.at(frame);
+            settledMean += meanOf(luminanceOf(images.lit), &truth.foreground);
+            referenceMean += meanOf(luminanceOf(truth.lit), &truth.foreground);
+        }
         sayProgress(kFrameWork, variant.name + ", frame " + std::to_string(frame + 1) + " of " +
                                     std::to_string(own_.end));
     }
-    out.writeJson("import.json", options_.imported->describe());
+    const auto ratio =
+        referenceMean > 0.0 ? std::optional(settledMean / referenceMean) : std::nullopt;
+    if (ratio && std::abs(*ratio - 1.0) > kLargestBias)
+        log(LogLevel::Warning,
+            fmt::format(
+                "{}: its settled mean is {:.2f} of the reference's; is it right that its frames "
+                "hold the quantity {}?",
+                variant.name, *ratio, nameOf(options_.imported->quantity())));
+    Json account = options_.imported->describe();
+    account["mean"] = ratio ? Json(*ratio) : Json(nullptr);
+    out.writeJson("import.json", account);
     finishVariant(variant, table, out, Json::array()); // nobody knows how long they took
 }
 
@@ -205,17 +230,13 @@ void Run::finishVariant(const Variant& variant, const MetricsTable& table, const
 Json Run::describeRun() const {
     Json scene = describe(plan_.scene, renderer_.sceneStats());
     scene.erase("bvh_build_ms"); // a time: the same run gives the same text
-    Json told = Json::parse(toJson(experiment_));
-    // A file's path is relative to the file that names it, and that is another one now.
-    if (std::filesystem::exists(experiment_.scene))
-        told["scene"] = std::filesystem::absolute(experiment_.scene).lexically_normal().string();
     Json json = {{"program", "afterglow"},
                  {"version", version()},
                  {"commit", commit()},
                  {"command", "experiment"},
                  {"gl", describe(gl_)},
                  {"machine", describeMachine()},
-                 {"experiment", told},
+                 {"experiment", describe(experiment_)},
                  {"scene", scene},
                  {"measured", "linear rgb of filtered signal times albedo, over pixels that show a "
                               "surface; psnr, ssim and flip of the display image"},
@@ -248,6 +269,8 @@ void Run::run() {
     for (const Variant& variant : experiment_.variants)
         if (!isDone(variant))
             missing.push_back(&variant);
+    takeFolder({describe(experiment_), options_.part, options_.imported || options_.fresh}, folder_,
+               options_.fresh);
     const bool isWritten = std::filesystem::exists(folder_.path() / "experiment.json");
     const double perVariant = workOf(experiment_, plan_, options_.part) -
                               double(truths_.countFor(own_)) * experiment_.referenceSamples;
@@ -264,7 +287,7 @@ void Run::run() {
         progress_.skip(double(truths_.countFor(own_)) * experiment_.referenceSamples);
     }
     if (!missing.empty() || !isWritten)
-        folder_.writeJson("experiment.json", describeRun());
+        writeAccount(folder_, describeRun());
     if (options_.part.isWhole())
         finishRun(folder_);
 }

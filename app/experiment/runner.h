@@ -24,7 +24,7 @@ FrameRange framesOf(Part part, int frames);
 
 struct RunOptions {
     Part part = {};
-    bool fresh = false; ///< do again what an earlier run into the same folder has done
+    bool fresh = false; ///< do again what the folder holds, and replace another run in it
     /// The frames of one external variant, which is measured from them; of whole runs only.
     const ImportedFrames* imported = nullptr;
 };
@@ -43,6 +43,7 @@ double workOf(const Experiment& experiment, const RunPlan& plan, Part part);
 ///
 /// A variant whose files are there already, made by the same program from the same experiment, is
 /// not run again: so an interrupted run goes on where it was. What a part leaves is for merge().
+/// Another run in the folder is a UsageError unless `options.fresh`: see run_owner.h.
 /// An external variant can only be there already, unless `options` has its frames: InputError.
 void runExperiment(const Experiment& experiment, const RunPlan& plan, Renderer& renderer,
                    const GlInfo& gl, ReferenceStore& store, const OutputFolder& folder,

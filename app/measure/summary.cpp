@@ -220,6 +220,7 @@ std::string tableOf(const Json& summary, const Json& timing) {
         {"rmse settled", "rmse_settled", "%.5f"},
         {"flip settled", "flip_settled", "%.4f"},
         {"flicker", "flicker", "%.5f"},
+        {"mean", "mean", "%.3f"}, // of imported frames only
         {"lambda false", "lambda_false", "%.4f"},
     };
     std::vector<std::vector<std::string>> rows(1, {"variant"});

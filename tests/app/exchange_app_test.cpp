@@ -11,6 +11,7 @@
 #include <limits>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace afterglow::test {
@@ -329,6 +330,7 @@ TEST_CASE("a second denoiser stands beside the first, and the run can be told ag
     // Imported again it is measured again, and is not there twice.
     checkDone(d.import(raw, "one", "out", {"--only"}));
     CHECK(d.variants("out") == std::vector<std::string>{"two", "one"});
+    CHECK_FALSE(fs::exists(d.folder / "out/fixed")); // its measures are no longer told
     auto summary = d.read("out/summary.json").at("variants");
     CHECK(summary.at("one") == summary.at("two"));
 
@@ -340,14 +342,43 @@ TEST_CASE("a second denoiser stands beside the first, and the run can be told ag
     checkRefused(run({"experiment", file, "--no-cache", "--out", d.folder / "other"}), 3,
                  {"two", "other/two", "import-frames"});
 
-    // With other references the measures of before no longer hold.
+    // With other references it is another run.
     Words words = d.words(signal, "three", "out");
     *(std::ranges::find(words, "16")) = "8";
-    const Run other = run(words, {"--only"});
-    CHECK(other.exitCode == 0);
-    CHECK(other.err.find("out/two was measured by another program or in another experiment") !=
-          std::string::npos);
+    checkRefused(run(words, {"--only"}), 2, {"referenceSamples 16 and not 8", "--fresh"});
+    CHECK(d.variants("out") == std::vector<std::string>{"two", "one"});
+    checkDone(run(words, {"--only", "--fresh"}));
     CHECK(d.variants("out") == std::vector<std::string>{"three"});
+    CHECK_FALSE(fs::exists(d.folder / "out/two"));
+
+    // What another program has measured is left out.
+    d.folder.write("out/three/timing.json", R"({"key": "another", "parts": []})");
+    *(std::ranges::find(words, "three")) = "four";
+    const Run left = run(words, {"--only"});
+    CHECK(left.exitCode == 0);
+    CHECK(left.err.find("out/three was measured by another program") != std::string::npos);
+    CHECK(d.variants("out") == std::vector<std::string>{"four"});
+}
+
+TEST_CASE("frames that are not of the quantity that is said are told by their mean") {
+    const Denoised d;
+    const std::string color = d.copies("color", d.svgf, "color", ".exr");
+    const Run wrong = d.import(color, "wrong", "out", {"--filter", "svgf"}); // as a signal
+    CHECK(wrong.exitCode == 0);
+    CAPTURE(wrong.err);
+    CHECK(wrong.err.starts_with("warning: wrong: its settled mean is 0."));
+    CHECK(wrong.err.find('\n') == wrong.err.size() - 1); // once
+    CHECK(wrong.err.find("the quantity signal?") != std::string::npos);
+    CHECK(wrong.out.find("  mean ") != std::string::npos);
+    const double mean = d.read("out/wrong/import.json").at("mean");
+    CHECK(mean < 0.9);
+    CHECK(mean > 0.1);
+    CHECK(wrong.out.find(fmt::format("  {:.3f}  ", mean)) != std::string::npos);
+
+    checkDone(d.import(color, "right", "out", {"--filter", "svgf", "--quantity", "color"}));
+    // SVGF's own bias: README, "What looks wrong".
+    CHECK(std::abs(d.read("out/right/import.json").at("mean").get<double>() - 1.0) < 0.05);
+    CHECK_FALSE(d.read("out/summary.json").at("variants").at("right").contains("mean"));
 }
 
 TEST_CASE("frames that cannot be measured are refused by name, and nothing is written") {

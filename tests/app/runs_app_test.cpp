@@ -53,6 +53,13 @@ void checkSameRun(const fs::path& a, const fs::path& b) {
     CHECK(compared > 60);
 }
 
+std::map<std::string, std::string> filesAndBytes(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const std::string& file : filesIn(folder))
+        files[file] = bytesOf(folder / file);
+    return files;
+}
+
 nlohmann::json summaryIn(const fs::path& folder) {
     return nlohmann::json::parse(bytesOf(folder / "summary.json")).at("variants");
 }
@@ -86,8 +93,23 @@ TEST_CASE("the parts of a run, merged, are the run, byte for byte but for times"
     REQUIRE(run.exitCode == 0);
     checkSameRun(folder / "whole", folder / "merged");
 
+    // The whole run does not make room for another one, unless it is told to.
+    Words into = merge;
+    into.back() = folder / "other";
+    REQUIRE(experiment({file, "--spp", "4"}, folder / "other").exitCode == 0);
+    const Run refused = afterglow(into);
+    CAPTURE(refused.err);
+    CHECK(refused.exitCode == 2);
+    CHECK(refused.err.find("referenceSamples 4 and not 16; --fresh replaces it") !=
+          std::string::npos);
+    into.push_back("--fresh");
+    REQUIRE(afterglow(into).exitCode == 0);
+    checkSameRun(folder / "whole", folder / "other");
+
     // A part of another run is refused by name.
-    REQUIRE(experiment({file, "--part", "1/3", "--spp", "8"}, folder / "part1").exitCode == 0);
+    REQUIRE(
+        experiment({file, "--part", "1/3", "--spp", "8", "--fresh"}, folder / "part1").exitCode ==
+        0);
     const Run mixed = afterglow(merge);
     CHECK(mixed.exitCode == 3);
     CHECK(isOneErrorLine(mixed.err));
@@ -136,16 +158,111 @@ TEST_CASE("a run that was interrupted leaves no half file and goes on where it w
     CHECK(fs::last_write_time(folder / "cut/asvgf/frame_0003.png") != before);
 }
 
-TEST_CASE("another experiment in the same folder is not taken for the one that was there") {
+TEST_CASE("a folder that holds another run is refused and untouched; --fresh replaces it") {
     const TemporaryFolder folder;
-    const std::string file = eventful(folder);
-    REQUIRE(experiment({file}, folder / "a").exitCode == 0);
-    const auto first = summaryIn(folder / "a");
-    REQUIRE(experiment({file, "--set", "alpha=0.5"}, folder / "a").exitCode == 0);
-    CHECK(summaryIn(folder / "a").at("fixed").at("rmse_settled") >
-          first.at("fixed").at("rmse_settled"));
-    REQUIRE(experiment({file}, folder / "a").exitCode == 0);
-    CHECK(summaryIn(folder / "a") == first);
+    const std::string a = eventful(folder, "first"), b = eventful(folder, "second");
+    const std::string out = folder / "out";
+    const Words small{"--frames", "12", "--spp", "4"};
+    const auto run = [&](Words what) {
+        what.insert(what.end(), small.begin(), small.end());
+        return experiment(what, out);
+    };
+    const auto checkRefused = [&](const Run& refused, const std::vector<std::string>& mentioned) {
+        CAPTURE(refused.err);
+        CHECK(refused.exitCode == 2);
+        CHECK(isOneErrorLine(refused.err));
+        for (const std::string& text : mentioned)
+            CHECK(refused.err.find(text) != std::string::npos);
+    };
+    REQUIRE(run({a}).exitCode == 0);
+    const auto before = filesAndBytes(out);
+    checkRefused(run({b}), {out, "a run of first", "second", "--fresh"});
+    checkRefused(run({a, "--size", "31x19"}), {"size [61,37] and not [31,19]", "--fresh"});
+    checkRefused(run({a, "--set", "alpha=0.5"}), {"other variants", "--fresh"});
+    checkRefused(run({a, "--filter", "fixed"}),
+                 {R"(variants ["fixed","asvgf"] and not ["fixed"])", "--fresh"});
+    checkRefused(run({a, "--part", "1/2"}), {"the whole and not part 1 of 2", "--fresh"});
+    checkRefused(run({a, b}), {"a run of first", "several runs", "--fresh"});
+    checkRefused(afterglow({"sweep", a, "--over", "alpha=0.1,0.2", "--out", out}),
+                 {"a run of first", "first-alpha", "--fresh"});
+    CHECK((filesAndBytes(out) == before));
+    REQUIRE(run({a}).exitCode == 0); // the very same is told again
+
+    // Of what is replaced only the files of the run go.
+    folder.write("out/notes.txt", "mine");
+    folder.write("out/asvgf/notes.txt", "mine");
+    REQUIRE(run({b, "--filter", "svgf", "--fresh"}).exitCode == 0);
+    std::vector<std::string> expected{"asvgf/notes.txt", "notes.txt"};
+    REQUIRE(experiment({b, "--filter", "svgf", "--frames", "12", "--spp", "4"}, folder / "alone")
+                .exitCode == 0);
+    for (const std::string& file : filesIn(folder / "alone"))
+        expected.push_back(file);
+    std::ranges::sort(expected);
+    CHECK(filesIn(out) == expected);
+    for (const std::string& file : filesIn(folder / "alone")) {
+        CAPTURE(file);
+        if (!tellsTimes(file))
+            CHECK((bytesOf(out + "/" + file) == bytesOf(folder / ("alone/" + file))));
+    }
+    // With other variants the same experiment is replaced, too.
+    REQUIRE(run({b, "--filter", "fixed", "--fresh"}).exitCode == 0);
+    CHECK_FALSE(fs::exists(out + "/svgf"));
+    CHECK(summaryIn(out).size() == 1);
+}
+
+TEST_CASE("folders of runs and a run exclude each other; runs in folders of their own do not") {
+    const TemporaryFolder folder;
+    const std::string a = eventful(folder, "first"), b = eventful(folder, "second"),
+                      c = eventful(folder, "third");
+    const std::string out = folder / "out";
+    const auto run = [&](Words what) {
+        what.insert(what.end(), {"--frames", "12", "--spp", "4", "--filter", "fixed"});
+        return experiment(what, out);
+    };
+    REQUIRE(run({a, b}).exitCode == 0);
+    const auto before = filesAndBytes(out);
+    for (const Words& what : {Words{a}, Words{c}}) {
+        const Run refused = run(what);
+        CAPTURE(refused.err);
+        CHECK(refused.exitCode == 2);
+        CHECK(isOneErrorLine(refused.err));
+        CHECK(refused.err.find("folders of runs (first, ...)") != std::string::npos);
+    }
+    // One of several is another: none is begun.
+    const Run other = experiment({c, b, "--frames", "12", "--spp", "8"}, out);
+    CAPTURE(other.err);
+    CHECK(other.exitCode == 2);
+    CHECK(other.err.find(out + "/second: holds another run of second") != std::string::npos);
+    CHECK((filesAndBytes(out) == before));
+
+    REQUIRE(run({c, b}).exitCode == 0); // a third stands beside the two
+    CHECK(fs::exists(out + "/first/summary.json"));
+    CHECK(fs::exists(out + "/third/summary.json"));
+    REQUIRE(run({c, "--fresh"}).exitCode == 0);
+    for (const char* name : {"first", "second", "third"})
+        CHECK_FALSE(fs::exists(out + "/" + name));
+    CHECK(summaryIn(out).size() == 1);
+    REQUIRE(run({a, b, "--fresh"}).exitCode == 0);
+    CHECK_FALSE(fs::exists(out + "/experiment.json"));
+    CHECK_FALSE(fs::exists(out + "/fixed"));
+}
+
+TEST_CASE("a run that was interrupted keeps its folder") {
+    const TemporaryFolder folder;
+    const std::string a = eventful(folder, "first"), b = eventful(folder, "second");
+    const std::string out = folder / "out";
+    std::string command = "\"$AFTERGLOW_BIN\"";
+    for (const std::string& word : experimentWords({a, "--spp", "1000000"}, out))
+        command += " '" + word + "'";
+    command += " >/dev/null 2>&1 & while kill -0 $! && [ ! -e '" + out +
+               "/unfinished.json' ]; do sleep 0.05; done; kill -TERM $!; wait $!";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 130);
+    CHECK(filesIn(out) == std::vector<std::string>{"unfinished.json"});
+    const Run other = experiment({b}, out);
+    CHECK(other.exitCode == 2);
+    CHECK(other.err.find("a run of first") != std::string::npos);
+    REQUIRE(experiment({b, "--frames", "4", "--fresh"}, out).exitCode == 0);
+    CHECK_FALSE(fs::exists(out + "/unfinished.json"));
 }
 
 TEST_CASE("references are kept in the cache that is named, and give the same bytes from there") {
