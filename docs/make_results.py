@@ -16,24 +16,23 @@ def variants(run):
     return read(run, "summary.json")["variants"]
 
 
-def number(value, digits=3):
-    if value is None:
-        return "–"
-    if isinstance(value, int):
-        return str(value)
+METRICS = {row["key"]: row for row in read("suite/static", "experiment.json")["metrics"]}
+TWO_DIGITS = {"flicker", "lambda_false"}
+
+
+def number(value, digits):
     return f"{value:.{digits}g}" if abs(value) >= 1e-6 or value == 0 else "0"
 
 
-def fixed(value, places=2):
-    return "–" if value is None else f"{value:.{places}f}"
-
-
-def frames(summary, key):
-    """A time in frames: never, or not there at all."""
-    area = "lag_frames" if key.startswith("lag_") else "ghost_frames"
-    if summary.get(key) is not None:
-        return str(summary[key])
-    return "never" if summary.get(area) is not None else "–"
+def cell(key, summary, timing=None, digits=None):
+    """A metric as it is shown: with its places after the point if it counts frames, else with a few digits."""
+    row = METRICS[key]
+    value = (timing if row["timing"] else summary).get(key)
+    if value is None:
+        return "never" if summary.get(row["reached_if"]) is not None else "–"
+    if row["unit"] == "frames":
+        return f"{value:.{row['digits']}f}"
+    return number(value, digits or (2 if key in TWO_DIGITS else 3))
 
 
 def table(head, rows):
@@ -41,75 +40,65 @@ def table(head, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
+def labels(keys):
+    return [METRICS[key]["label"] for key in keys]
+
+
 ORDER = ["static", "light-off", "light-on", "light-dim", "fill-light", "sparse-light", "light-color", "flicker",
          "light-move", "object-move", "unrelated-light", "camera-pan", "camera-cut"]
 
 
-def suite_table():
+def filter_table(folder, names, keys):
+    """The metrics of every filter in these experiments."""
     rows = []
-    for name in ORDER:
-        timing = read(f"suite/{name}", "timing.json")["variants"]
-        for i, (variant, s) in enumerate(variants(f"suite/{name}").items()):
-            rows.append([f"`{name}`" if i == 0 else "", variant] + [frames(s, k) for k in ("t50", "t90", "t99", "lag_t90")] +
-                        [fixed(s.get("ghost_frames")), fixed(s.get("lag_frames")), number(s["rmse_settled"]), number(s["flip_settled"]),
-                         number(s["flicker"], 2), number(s.get("noise_after_event")), number(s.get("rmse_moving")),
-                         number(s.get("recovery_frames")), number(timing[variant]["ms_per_frame"])])
-    return table(["experiment", "filter", "t50", "t90", "t99", "lag t90", "ghost frames", "lag frames", "RMSE", "FLIP", "flicker", "noise after",
-                  "RMSE moving", "recovery", "ms"], rows)
+    for name in names:
+        timing = read(f"{folder}/{name}", "timing.json")["variants"]
+        for i, (variant, s) in enumerate(variants(f"{folder}/{name}").items()):
+            rows.append([f"`{name}`" if i == 0 else "", variant] + [cell(k, s, timing[variant]) for k in keys])
+    return table(["experiment", "filter"] + labels(keys), rows)
+
+
+def suite_table():
+    return filter_table("suite", ORDER, [key for key, row in METRICS.items() if "results" in row["shown"]])
 
 
 def lambda_table():
-    rows = []
-    for name in ORDER:
-        s = variants(f"suite/{name}")["asvgf"]
-        rows.append([f"`{name}`", number(s.get("lambda_ideal_mean")), number(s.get("lambda_mean")), number(s.get("lambda_rmse")),
-                     number(s.get("lambda_precision")), number(s.get("lambda_recall")), number(s.get("lambda_false"), 2)])
-    return table(["experiment", "mean lambda*", "mean lambda", "RMSE", "precision", "recall", "false"], rows)
+    keys = ["lambda_ideal_mean", "lambda_mean", "lambda_rmse", "lambda_precision", "lambda_recall", "lambda_false"]
+    rows = [[f"`{name}`"] + [cell(k, variants(f"suite/{name}")["asvgf"]) for k in keys] for name in ORDER]
+    return table(["experiment"] + labels(keys), rows)
 
 
 def competitor_table():
-    rows = []
-    for name in ["light-off", "light-on", "light-dim", "fill-light", "sparse-light", "light-color"]:
-        for i, (variant, s) in enumerate(variants(f"competitors/{name}").items()):
-            rows.append([f"`{name}`" if i == 0 else "", variant, frames(s, "t90"), frames(s, "lag_t90"), fixed(s["ghost_frames"]),
-                         fixed(s["lag_frames"]), number(s["rmse_settled"]), number(s["flicker"], 2), number(s["noise_after_event"])])
-    return table(["experiment", "filter", "t90", "lag t90", "ghost frames", "lag frames", "RMSE", "flicker", "noise after"], rows)
+    return filter_table("competitors", ["light-off", "light-on", "light-dim", "fill-light", "sparse-light", "light-color"],
+                        ["t90", "lag_t90", "ghost_frames", "lag_frames", "rmse_settled", "flicker", "noise_after_event"])
 
 
 def moving_table():
-    rows = []
-    for name in ["light-move", "object-move"]:
-        for i, (variant, s) in enumerate(variants(f"competitors/{name}").items()):
-            rows.append([f"`{name}`" if i == 0 else "", variant, number(s["rmse_moving"]), number(s["trail_response"]),
-                         number(s["ghost_energy"]), number(s["recovery_frames"]), number(s["rmse_settled"])])
-    return table(["experiment", "filter", "RMSE moving", "trail response", "ghost energy", "recovery", "RMSE settled"], rows)
+    return filter_table("competitors", ["light-move", "object-move"],
+                        ["rmse_moving", "trail_response", "ghost_energy", "recovery_frames", "rmse_settled"])
 
 
 def option_table():
     names = ["fill-light", "light-dim", "light-on"]
     runs = {name: variants(f"options/{name}") for name in names}
+    of_each = ["lag_t90", "lag_frames", "noise_after_event"]
     rows = []
     for variant in runs[names[0]]:
-        row = [f"`{variant}`"]
-        for name in names:
-            s = runs[name][variant]
-            row += [frames(s, "lag_t90"), fixed(s["lag_frames"]), number(s["noise_after_event"])]
         s = runs["fill-light"][variant]
-        rows.append(row + [number(s["rmse_settled"], 4), number(s["flicker"], 3), number(s["lambda_false"], 2)])
-    head = ["option"]
-    for name in names:
-        head += [f"{name}: lag t90", "lag frames", "noise after"]
-    return table(head + ["RMSE", "flicker", "false"], rows)
+        rows.append([f"`{variant}`"] + [cell(k, runs[name][variant]) for name in names for k in of_each] +
+                    [cell("rmse_settled", s, digits=4), cell("flicker", s, digits=3), cell("lambda_false", s)])
+    head = [f"{name}: {label}" if i == 0 else label for name in names for i, label in enumerate(labels(of_each))]
+    return table(["option"] + head + labels(["rmse_settled", "flicker", "lambda_false"]), rows)
 
 
 def signal_table():
+    keys = ["lag_t90", "lag_frames", "rmse_settled", "flip_settled", "flicker"]
     rows = []
     for name in ["light-off", "light-dim", "fill-light", "sparse-light"]:
         for i, signal in enumerate(["both", "separate"]):
             for variant, s in variants(f"signals/{signal}/{name}").items():
-                rows.append([f"`{name}`" if i == 0 and variant == "svgf" else "", signal, variant, frames(s, "lag_t90"), fixed(s["lag_frames"]),
-                             number(s["rmse_settled"]), number(s["flip_settled"]), number(s["flicker"], 2)])
-    return table(["experiment", "signal", "filter", "lag t90", "lag frames", "RMSE", "FLIP", "flicker"], rows)
+                rows.append([f"`{name}`" if i == 0 and variant == "svgf" else "", signal, variant] + [cell(k, s) for k in keys])
+    return table(["experiment", "signal", "filter"] + labels(keys), rows)
 
 
 def sweep_table():
@@ -117,9 +106,10 @@ def sweep_table():
     for s in variants("sweep").values():
         points.setdefault(s["sweep"]["value"], {})[s["sweep"]["variant"]] = s
     filters = list(next(iter(points.values())))
-    rows = [[value] + [cell for f in filters for cell in (number(by[f]["rmse_settled"]), number(by[f]["flicker"], 2), frames(by[f], "lag_t90"), fixed(by[f]["lag_frames"]))]
-            for value, by in points.items()]
-    return table(["alpha"] + [f"{f}: {c}" if c == "RMSE" else c for f in filters for c in ("RMSE", "flicker", "lag t90", "lag frames")], rows)
+    keys = ["rmse_settled", "flicker", "lag_t90", "lag_frames"]
+    rows = [[value] + [cell(k, by[f]) for f in filters for k in keys] for value, by in points.items()]
+    head = [f"{f}: {label}" if i == 0 else label for f in filters for i, label in enumerate(labels(keys))]
+    return table(["alpha"] + head, rows)
 
 
 run = read("suite/static", "experiment.json")

@@ -2,6 +2,7 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/headless.h"
+#include "app/measure/metric.h"
 #include "app/scenario/experiment.h"
 #include "app/scenario/presets.h"
 #include "renderer/base/error.h"
@@ -14,12 +15,14 @@
 #include <charconv>
 #include <cstdio>
 
+#include <fmt/format.h>
+
 namespace afterglow {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kKinds{"scenes", "experiments", "filters", "presets",
-                                                 "aovs",   "contexts",    "settings"};
+constexpr std::array<std::string_view, 8> kKinds{"scenes", "experiments", "filters",  "presets",
+                                                 "aovs",   "contexts",    "settings", "metrics"};
 
 struct Line {
     std::string name, text;
@@ -116,6 +119,17 @@ std::vector<Line> settingLines() {
     return lines;
 }
 
+std::vector<Line> metricLines() {
+    std::vector<Line> lines;
+    for (const Metric& metric : metrics()) {
+        std::string text(metric.tip);
+        if (!metric.unit.empty())
+            text += fmt::format(" [{}]", metric.unit);
+        lines.push_back({std::string(metric.key), text});
+    }
+    return lines;
+}
+
 } // namespace
 
 std::span<const std::string_view> listKinds() {
@@ -124,9 +138,9 @@ std::span<const std::string_view> listKinds() {
 
 void runList(std::string_view kind) {
     using Lines = std::vector<Line> (*)();
-    constexpr std::array<Lines, kKinds.size()> makers{sceneLines,  experimentLines, filterLines,
-                                                      presetLines, aovLines,        contextLines,
-                                                      settingLines};
+    constexpr std::array<Lines, kKinds.size()> makers{sceneLines,   experimentLines, filterLines,
+                                                      presetLines,  aovLines,        contextLines,
+                                                      settingLines, metricLines};
     const auto found = std::ranges::find(kKinds, kind);
     if (found == kKinds.end())
         throw UsageError(unknownName("list", kind, {kKinds.begin(), kKinds.end()}));

@@ -1,5 +1,6 @@
 #include "app/experiment/run_files.h"
 
+#include "app/base/json_reader.h"
 #include "app/measure/metrics_table.h"
 #include "app/measure/summary.h"
 #include "app/report/report.h"
@@ -76,11 +77,12 @@ void markFinished(const OutputFolder& folder, const std::string& key, const Json
 void finishRun(const OutputFolder& folder) {
     const fs::path& path = folder.path();
     const fs::path account = path / "experiment.json";
-    const Json json = readJson(account);
-    if (!json.contains("experiment"))
-        throw InputError(account.string() + ": \"experiment\" is missing");
-    const Experiment experiment = parseExperiment(json.at("experiment").dump(), account.string());
-    const RunPlan plan = planOf(experiment);
+    const std::string text = readFile(account);
+    const JsonDocument document(text, account.string());
+    document.root().at("experiment").members();
+    const Experiment experiment =
+        parseExperiment(Json::parse(text).at("experiment").dump(), account.string());
+    const RunOutline outline = readOutline(document.root(), experiment.frames());
 
     MetricsTable table;
     Json timing = {{"variants", Json::object()}};
@@ -95,12 +97,12 @@ void finishRun(const OutputFolder& folder) {
     if (fs::exists(path / "reference" / "timing.json"))
         timing["references"] = readJson(path / "reference" / "timing.json").at("references");
 
-    const Json summary = summaryOf(experiment, plan, table);
+    const Json summary = summaryOf(experiment, outline, table);
     fs::remove(path / "summary.json"); // it says that all others are there
     folder.writeText("metrics.csv", table.csv(names));
     folder.writeJson("timing.json", timing);
     folder.writePng("contact_sheet.png",
-                    drawRunSheet(experiment, plan, table, summary, timing, path));
+                    drawRunSheet(experiment, outline, table, summary, timing, path));
     folder.writeJson("summary.json", summary);
     writeReport(path);
 }

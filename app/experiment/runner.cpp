@@ -5,6 +5,8 @@
 #include "app/experiment/run_files.h"
 #include "app/experiment/run_owner.h"
 #include "app/measure/meter.h"
+#include "app/measure/metric.h"
+#include "app/measure/run_outline.h"
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/log.h"
@@ -239,15 +241,8 @@ Json Run::describeRun() const {
                  {"experiment", describe(experiment_)},
                  {"scene", scene},
                  {"measured", "linear rgb of filtered signal times albedo, over pixels that show a "
-                              "surface; psnr, ssim and flip of the display image"},
-                 {"settled_window", {plan_.settled.first, plan_.settled.end}},
-                 {"pictures", plan_.pictures}};
-    json["events"] = Json::array();
-    for (const RunEvent& event : plan_.events)
-        json["events"].push_back({{"frame", event.change.first},
-                                  {"end", event.change.end},
-                                  {"kind", event.kind == RunEvent::Kind::Step ? "step" : "motion"},
-                                  {"text", event.text}});
+                              "surface; psnr, ssim and flip of the display image"}};
+    writeOutline(outlineOf(plan_), json);
     json["references"] = Json::array();
     for (std::size_t i = 0; i < plan_.moments.size(); ++i)
         if (truths_.has(i) && own_.contains(plan_.moments[i].first))
@@ -259,6 +254,7 @@ Json Run::describeRun() const {
     for (const Variant& variant : experiment_.variants)
         if (!variant.external)
             json["settings"][variant.name] = toJson(settingsOf(variant, experiment_.signal));
+    json["metrics"] = metricsJson();
     if (!options_.part.isWhole())
         json["part"] = {options_.part.index, options_.part.count};
     return json;

@@ -1,5 +1,6 @@
 #include "app/measure/metrics_table.h"
 
+#include "app/measure/metric.h"
 #include "renderer/base/error.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 
 namespace afterglow {
 namespace {
@@ -30,6 +32,8 @@ std::string_view nextCell(std::string_view& line) {
 } // namespace
 
 void MetricsTable::add(std::string_view variant, int frame, std::string_view metric, double value) {
+    if (!metricNamed(metric).isOfFrames())
+        throw std::logic_error(std::string(metric) + " is a metric of runs, not of frames");
     rows_.push_back({std::string(variant), frame, std::string(metric),
                      std::strtod(written(value).data(), nullptr)});
 }

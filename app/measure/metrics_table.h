@@ -12,6 +12,7 @@ namespace afterglow {
 /// was written gave.
 class MetricsTable {
 public:
+    /// The metric must be one of frames: see metric.h.
     void add(std::string_view variant, int frame, std::string_view metric, double value);
     /// All rows of another table of other frames or variants.
     void append(const MetricsTable& other);

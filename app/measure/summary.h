@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/measure/metrics_table.h"
-#include "app/scenario/run_plan.h"
+#include "app/measure/run_outline.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,7 +10,7 @@ namespace afterglow {
 /// summary.json, from nothing but the measures of the frames: one object per variant. Numbers that
 /// were never reached, or cannot be had, are null. Where the picture changes more than once, the
 /// numbers of a variant are those of the first event, and "events" lists all.
-nlohmann::ordered_json summaryOf(const Experiment& experiment, const RunPlan& plan,
+nlohmann::ordered_json summaryOf(const Experiment& experiment, const RunOutline& outline,
                                  const MetricsTable& table);
 
 /// The same as lines to be read; `timing` is that of timing.json.

@@ -1,5 +1,6 @@
 #include "app/report/report.h"
 
+#include "app/measure/metric.h"
 #include "app/report/page.h"
 #include "app/report/run_folder.h"
 #include "renderer/base/error.h"
@@ -44,7 +45,7 @@ void writeReport(const fs::path& folder) {
     const std::string title = isRun ? runs[0]["run"]["experiment"]["name"].get<std::string>()
                                     : "Suite of " + std::to_string(runs.size()) +
                                           (runs.size() == 1 ? " experiment" : " experiments");
-    const Json data{{"suite", !isRun}, {"runs", std::move(runs)}};
+    const Json data{{"suite", !isRun}, {"metrics", metricsJson()}, {"runs", std::move(runs)}};
     writeFileAtomically(folder / "report.html", reportPage(title + " - Afterglow", data, pictures));
 }
 

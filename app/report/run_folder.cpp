@@ -2,11 +2,15 @@
 
 #include "app/base/json_reader.h"
 #include "app/base/output.h"
-#include "app/report/metrics_file.h"
+#include "app/measure/metrics_table.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <set>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 
@@ -86,6 +90,39 @@ Json readVariants(const fs::path& file, const Plan& plan) {
     })["variants"];
 }
 
+Json asJson(double value) {
+    if (std::isnan(value))
+        return nullptr;
+    if (std::isinf(value))
+        return value > 0 ? "inf" : "-inf";
+    return value;
+}
+
+/// The metrics of each variant, in the order in which they first occur.
+Json readCurves(const fs::path& file, const std::vector<std::string>& variants) {
+    const MetricsTable table = MetricsTable::parse(readFile(file), file.string());
+    Json curves = Json::object();
+    for (const std::string& variant : variants)
+        curves[variant] = Json::object();
+    for (const MetricsTable::Row& row : table.rows()) {
+        if (std::ranges::find(variants, row.variant) == variants.end())
+            throw InputError(fmt::format("{}: no variant of the experiment is named \"{}\"",
+                                         file.string(), row.variant));
+        Json& series = curves[row.variant][row.metric];
+        if (series.is_null())
+            series = {{"first", row.frame}, {"values", Json::array()}};
+        Json& values = series["values"];
+        const int next = series["first"].get<int>() + int(values.size());
+        if (row.frame < next || row.frame >= kMostFrames)
+            throw InputError(fmt::format("{}: frame {} of {} is not later than the one before",
+                                         file.string(), row.frame, row.metric));
+        for (int gap = next; gap < row.frame; ++gap)
+            values.push_back(nullptr);
+        values.push_back(asJson(row.value));
+    }
+    return curves;
+}
+
 Json variantPictures(const fs::path& folder, const Plan& plan, PictureStore& store) {
     Json images = Json::object();
     for (int frame : plan.pictures)
@@ -126,6 +163,7 @@ Json readRunFolder(const fs::path& folder, PictureStore& pictures) {
     std::optional<Plan> plan;
     Json run =
         readJson(folder / "experiment.json", [&](const JsonReader& root) { plan.emplace(root); });
+    run.erase("metrics"); // the page has the table of this program
     Json images = Json::object();
     for (const std::string& variant : plan->variants)
         images[variant] = variantPictures(folder / variant, *plan, pictures);
@@ -133,7 +171,7 @@ Json readRunFolder(const fs::path& folder, PictureStore& pictures) {
     return {{"run", std::move(run)},
             {"summary", readVariants(folder / "summary.json", *plan)},
             {"timing", readVariants(folder / "timing.json", *plan)},
-            {"metrics", readMetrics(folder / "metrics.csv", plan->variants)},
+            {"metrics", readCurves(folder / "metrics.csv", plan->variants)},
             {"images", std::move(images)}};
 }
 

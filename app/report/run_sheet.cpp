@@ -1,30 +1,21 @@
 #include "app/report/run_sheet.h"
 
 #include "app/base/output.h"
+#include "app/measure/metric.h"
 #include "renderer/image/image_io.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string textOf(const char* format, auto... values) {
-    char text[128];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
-}
-
-/// "12", "never", or nothing where there was no response.
-std::string framesText(const Json& summary, const char* key) {
-    return summary.at(key).is_null() ? "never" : std::to_string(summary.at(key).get<int>());
-}
 
 std::vector<int> columnsOf(int frames, std::optional<int> event) {
     std::set<int> chosen;
@@ -43,12 +34,12 @@ std::vector<int> columnsOf(int frames, std::optional<int> event) {
 /// The sheet of one run.
 class RunSheet {
 public:
-    RunSheet(const Experiment& experiment, const RunPlan& plan, const MetricsTable& table,
+    RunSheet(const Experiment& experiment, const RunOutline& outline, const MetricsTable& table,
              const Json& summary, const Json& timing, const std::filesystem::path& folder)
-        : experiment_(experiment), plan_(plan), table_(table), summary_(summary.at("variants")),
-          timing_(timing.at("variants")), folder_(folder) {
-        if (!plan.events.empty())
-            event_ = plan.events.front().change.first;
+        : experiment_(experiment), outline_(outline), table_(table),
+          summary_(summary.at("variants")), timing_(timing.at("variants")), folder_(folder) {
+        if (!outline.events.empty())
+            event_ = outline.events.front().change.first;
         frames_ = columnsOf(experiment.frames(), event_);
     }
 
@@ -56,6 +47,7 @@ public:
 
 private:
     Image<glm::u8vec4> picture(const std::string& row, int frame) const;
+    int referenceOf(int frame) const; ///< the frame that its reference is named by
     std::vector<std::pair<std::string, std::string>> notesOf(const std::string& variant) const;
     bool hasResponse() const;
     SheetCurve curveOf(std::size_t variant, const char* metric, FrameRange range) const;
@@ -63,7 +55,7 @@ private:
     SheetPlot errorPlot() const;
 
     const Experiment& experiment_;
-    const RunPlan& plan_;
+    const RunOutline& outline_;
     const MetricsTable& table_;
     const Json &summary_, &timing_; ///< by variant
     const std::filesystem::path& folder_;
@@ -74,6 +66,12 @@ private:
 Image<glm::u8vec4> RunSheet::picture(const std::string& row, int frame) const {
     const auto file = folder_ / row / (frameStem("frame", frame) + ".png");
     return std::filesystem::exists(file) ? readPng(file) : Image<glm::u8vec4>();
+}
+
+int RunSheet::referenceOf(int frame) const {
+    const auto holds = [&](const FrameRange& range) { return range.contains(frame); };
+    const auto found = std::ranges::find_if(outline_.references, holds);
+    return found == outline_.references.end() ? frame : found->first;
 }
 
 bool RunSheet::hasResponse() const {
@@ -102,7 +100,7 @@ SheetPlot RunSheet::responsePlot() const {
     plot.levels = {{0.0, "0"}, {0.5, "50 %"}, {0.9, "90 %"}, {1.0, "100 %"}};
     const FrameRange range{std::max(0, *event_ - 4),
                            std::min(experiment_.frames(), *event_ + 41)}; // later: a flat line
-    for (const RunEvent& event : plan_.events)
+    for (const RunEvent& event : outline_.events)
         if (range.contains(event.change.first))
             plot.events.push_back(event.change.first);
     for (std::size_t i = 0; i < experiment_.variants.size(); ++i) {
@@ -121,7 +119,7 @@ SheetPlot RunSheet::errorPlot() const {
     SheetPlot plot;
     plot.title = "Error: RMSE of linear color against the reference";
     plot.yLabel = "rmse";
-    for (const RunEvent& event : plan_.events)
+    for (const RunEvent& event : outline_.events)
         plot.events.push_back(event.change.first);
     // The first frames have no history and would press all else to the ground.
     const FrameRange range{std::min(8, experiment_.frames() - 1), experiment_.frames()};
@@ -138,23 +136,14 @@ SheetPlot RunSheet::errorPlot() const {
 
 std::vector<std::pair<std::string, std::string>>
 RunSheet::notesOf(const std::string& variant) const {
-    const Json& summary = summary_.at(variant);
+    const Json &summary = summary_.at(variant), &timing = timing_.at(variant);
     std::vector<std::pair<std::string, std::string>> notes;
-    const auto note = [&](const char* label, const char* format, const char* key) {
-        if (summary.contains(key) && !summary.at(key).is_null())
-            notes.emplace_back(label, textOf(format, summary.at(key).get<double>()));
-    };
-    if (summary.contains("response_settled") && !summary.at("response_settled").is_null()) {
-        notes = {{"t50", framesText(summary, "t50")},
-                 {"t90", framesText(summary, "t90")},
-                 {"t99", framesText(summary, "t99")}};
-        note("ghost", "%.1f", "ghost_frames");
-    } else {
-        note("ghost", "%.3f", "ghost_energy");
+    for (const Metric& metric : metrics()) {
+        const std::string value = shownValue(metric, summary, timing);
+        const bool isReplaced = summary.value(metric.insteadOf, Json()).is_number();
+        if ((metric.shown & kSheet) && !isReplaced && value != "-")
+            notes.emplace_back(metric.label, value);
     }
-    note("RMSE", "%.4f", "rmse_settled");
-    const Json& spent = timing_.at(variant).at("ms_per_frame");
-    notes.emplace_back("ms", spent.is_null() ? "-" : textOf("%.1f", spent.get<double>()));
     return notes;
 }
 
@@ -166,8 +155,8 @@ Image<glm::u8vec4> RunSheet::draw() const {
         const int after = event_ ? frames_[i] - *event_ : 0;
         if (event_ && frames_[i] == *event_)
             sheet.eventColumn = i;
-        sheet.columns.push_back(textOf("frame %d", frames_[i]) +
-                                (event_ ? textOf("  (%+d)", after) : ""));
+        sheet.columns.push_back(event_ ? fmt::format("frame {}  ({:+})", frames_[i], after)
+                                       : fmt::format("frame {}", frames_[i]));
     }
     for (std::size_t i = 0; i < experiment_.variants.size(); ++i) {
         SheetRow row{.name = experiment_.variants[i].name, .color = sheetColor(i)};
@@ -177,28 +166,25 @@ Image<glm::u8vec4> RunSheet::draw() const {
         sheet.rows.push_back(std::move(row));
     }
     SheetRow reference{.name = "reference", .color = kReferenceColor};
-    reference.notes = {{"samples", textOf("%d", experiment_.referenceSamples)}};
+    reference.notes = {{"samples", std::to_string(experiment_.referenceSamples)}};
     for (const int frame : frames_)
-        reference.pictures.push_back(
-            picture(reference.name, plan_.moments[momentAt(plan_.moments, frame)].first));
+        reference.pictures.push_back(picture(reference.name, referenceOf(frame)));
     sheet.rows.push_back(std::move(reference));
     if (hasResponse())
         sheet.plots.push_back(responsePlot());
     sheet.plots.push_back(errorPlot());
-    sheet.footer =
-        textOf("afterglow %s", std::string(version()).c_str()) +
-        textOf("  %s  %dx%d", experiment_.scene.c_str(), experiment_.size.x, experiment_.size.y) +
-        textOf("  %g Hz  seed %u", experiment_.rate, experiment_.seed) +
-        textOf("  signal %s", std::string(nameOf(experiment_.signal)).c_str());
+    sheet.footer = fmt::format("afterglow {}  {}  {}x{}  {:g} Hz  seed {}  signal {}", version(),
+                               experiment_.scene, experiment_.size.x, experiment_.size.y,
+                               experiment_.rate, experiment_.seed, nameOf(experiment_.signal));
     return drawContactSheet(sheet);
 }
 
 } // namespace
 
-Image<glm::u8vec4> drawRunSheet(const Experiment& experiment, const RunPlan& plan,
+Image<glm::u8vec4> drawRunSheet(const Experiment& experiment, const RunOutline& outline,
                                 const MetricsTable& table, const Json& summary, const Json& timing,
                                 const std::filesystem::path& folder) {
-    return RunSheet(experiment, plan, table, summary, timing, folder).draw();
+    return RunSheet(experiment, outline, table, summary, timing, folder).draw();
 }
 
 } // namespace afterglow

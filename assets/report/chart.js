@@ -26,7 +26,7 @@ class Chart {
     }
 
     toolbar() {
-        const metrics = this.run.metricKeys.map((key) => ({ value: key, text: metricText(key).label }));
+        const metrics = this.run.metricKeys.map((key) => ({ value: key, text: metricRow(key).label }));
         return make('div', { class: 'bar' },
             makeSelect(`Measure of ${this.run.name}`, metrics, this.metric, (key) => {
                 this.metric = key;
@@ -113,7 +113,7 @@ class Chart {
         let low = Math.min(...values), high = Math.max(...values);
         if (!values.length) [low, high] = [0, 1];
         if (this.isResponse) [low, high] = [Math.min(0, low), Math.max(1, high)];
-        else if (this.metric !== 'psnr') low = Math.min(0, low);
+        else if (metricRow(this.metric).unit !== 'dB') low = Math.min(0, low);
         if (high <= low) high = low + 1;
         const margin = this.isResponse ? 0.03 : 0.06;
         this.high = high + margin * (high - low);
@@ -127,7 +127,7 @@ class Chart {
         if (this.width === 0) return;
         this.measure();
         Object.assign(this, { left: 44, right: this.isResponse ? 40 : 14, top: 26, bottom: 40 });
-        this.title.textContent = metricText(this.metric).tip;
+        this.title.textContent = metricRow(this.metric).tip;
         const clip = `${this.run.id}-clip`;
         this.svg = makeSvg('svg', { width: this.width, height: this.height, 'aria-hidden': 'true' },
             makeSvg('clipPath', { id: clip }, makeSvg('rect', {
@@ -251,7 +251,7 @@ class Chart {
         });
         this.at.textContent = frameText(this.run, frame);
         this.plot.setAttribute('aria-valuenow', this.cursor.frame);
-        this.plot.setAttribute('aria-valuetext', `${frameText(this.run, this.cursor.frame)}: ${metricText(this.metric).label}, ${texts.join(', ')}`);
+        this.plot.setAttribute('aria-valuetext', `${frameText(this.run, this.cursor.frame)}: ${metricRow(this.metric).label}, ${texts.join(', ')}`);
     }
 }
 

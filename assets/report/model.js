@@ -16,6 +16,7 @@ const dashes = { 1: '', 2: '7 5', 3: '', 4: '2 4', 5: '10 4 2 4', 6: '1 3', 7: '
 
 function readModel() {
     const data = JSON.parse(document.getElementById('data').textContent);
+    for (const row of data.metrics) metricRows.set(row.key, row);
     const ids = new Set();
     const runs = data.runs.map((one) => {
         let id = 'e-' + one.run.experiment.name.replace(/[^\w-]+/g, '-');
@@ -65,14 +66,14 @@ function readRun({ run, summary, timing, metrics, images }, id) {
         references: run.references,
         variants,
         referenceImages: images.reference,
-        metricKeys: Object.keys(metricTexts).filter((key) => metricKeys.includes(key))
-            .concat(metricKeys.filter((key) => !metricTexts[key])),
+        metricKeys: [...metricRows.keys()].filter((key) => metricKeys.includes(key))
+            .concat(metricKeys.filter((key) => !metricRows.has(key))),
     };
 }
 
-/// The value of a column for a variant; undefined if it was not measured.
-function summaryValue(variant, column) {
-    return (column.timing ? variant.timing : variant.summary)[column.key];
+/// The value of a metric of runs for a variant; undefined if it was not measured.
+function summaryValue(variant, row) {
+    return (row.timing ? variant.timing : variant.summary)[row.key];
 }
 
 function metricValue(variant, metric, frame) {

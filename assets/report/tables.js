@@ -5,8 +5,8 @@ function bestOf(run, column) {
         .filter(({ value }) => typeof value === 'number');
     const known = measured.length + run.variants.filter((variant) => isNever(column, variant)).length;
     if (!measured.length || known < 2) return new Set();
-    const sign = column.best === 'high' ? -1 : 1;
-    const text = ({ variant, value }) => column.text(value, variant.summary);
+    const sign = column.better === 'high' ? -1 : 1;
+    const text = ({ variant }) => summaryText(column, variant);
     const best = measured.reduce((a, b) => (sign * Math.abs(b.value) < sign * Math.abs(a.value) ? b : a));
     const winners = measured.filter((one) => text(one) === text(best));
     return winners.length === known ? new Set() : new Set(winners.map(({ variant }) => variant.name));
@@ -14,9 +14,10 @@ function bestOf(run, column) {
 
 function makeVariantTable(run) {
     const measured = (key) => run.variants.some((variant) => typeof variant.summary[key] === 'number');
-    const columns = summaryColumns.filter((column) => !(column.insteadOf && measured(column.insteadOf))
-        && run.variants.some((variant) => typeof summaryValue(variant, column) === 'number' || isNever(column, variant)));
-    const groups = [...new Set(columns.map(({ group }) => group))];
+    const shown = [...metricRows.values()].filter((row) => row.group && !measured(row.instead_of)
+        && run.variants.some((variant) => typeof summaryValue(variant, row) === 'number' || isNever(row, variant)));
+    const groups = [...new Set(shown.map(({ group }) => group))];
+    const columns = groups.flatMap((group) => shown.filter((row) => row.group === group));
     const startsGroup = (column, i) => i === 0 || columns[i - 1].group !== column.group;
     const head = [
         make('tr', { class: 'groups' }, make('td', {}), groups.map((group) =>
@@ -30,11 +31,10 @@ function makeVariantTable(run) {
         make('th', { scope: 'row', class: 'first', style: `--color: ${variant.color}; --text: ${variant.textColor}` },
             make('span', { class: 'dot', 'aria-hidden': 'true' }), variant.name),
         columns.map((column, i) => {
-            const value = summaryValue(variant, column);
             const isBest = best.get(column.key).has(variant.name);
             const kind = [startsGroup(column, i) && 'starts', isBest && 'best', isNever(column, variant) && 'never'];
             return make('td', { class: kind.filter(Boolean).join(' ') || null, 'data-key': column.key },
-                make('span', {}, column.text(value ?? null, variant.summary)), isBest ? make('span', { class: 'unseen' }, ' (best)') : null);
+                make('span', {}, summaryText(column, variant)), isBest ? make('span', { class: 'unseen' }, ' (best)') : null);
         })));
     return make('div', { class: 'card' }, make('h3', {}, 'In numbers'), makeTable(`Numbers of ${run.name}`, head, rows),
         make('p', { class: 'hint' }, 'Times in frames from the event. ', make('b', {}, 'Bold'), ' is the best of a column; a heading says what it means.'));
@@ -101,31 +101,30 @@ function makeMachine(run) {
 
 /// Experiments down, variants across, for the measures one looks at first.
 function makeOverview(runs) {
-    const columns = ['t90', 'ghost_frames', 'rmse_moving', 'flip_settled'].map((key) => summaryColumns.find((column) => column.key === key))
-        .filter((column) => runs.some((run) => run.variants.some((variant) => variant.summary[column.key] !== undefined)));
+    const columns = [...metricRows.values()].filter((row) => row.shown.includes('overview')
+        && runs.some((run) => run.variants.some((variant) => variant.summary[row.key] !== undefined)));
     const inAll = (run) => run.variants.filter((variant) => !variant.summary.sweep);
     const names = [...new Set(runs.flatMap((run) => inAll(run).map(({ name }) => name)))];
-    const titles = { t90: 't90, frames', ghost_frames: 'ghost frames', rmse_moving: 'RMSE moving', flip_settled: 'settled FLIP' };
     const most = new Map(columns.map(({ key }) => [key, Math.max(...runs.flatMap((run) =>
         inAll(run).map((variant) => variant.summary[key]).filter(Number.isFinite)), 1e-9)]));
     const head = [
-        make('tr', { class: 'groups' }, make('td', {}), columns.map(({ key, tip }) => make('th', { scope: 'colgroup', colspan: names.length, class: 'starts' },
-            make('button', { type: 'button', class: 'explained', 'data-tip': tip }, titles[key])))),
+        make('tr', { class: 'groups' }, make('td', {}), columns.map((row) => make('th', { scope: 'colgroup', colspan: names.length, class: 'starts' },
+            make('button', { type: 'button', class: 'explained', 'data-tip': row.tip }, labelWithUnit(row))))),
         make('tr', {}, make('th', { scope: 'col', class: 'first' }, make('span', { class: 'unseen' }, 'experiment')),
             columns.map(() => names.map((name, i) => make('th', { scope: 'col', class: i ? null : 'starts' },
                 make('span', { style: `color: var(--series-${seriesOf(name)})` }, name))))),
     ];
     const rows = runs.map((run) => make('tr', {},
         make('th', { scope: 'row', class: 'first' }, make('a', { href: `#${run.id}` }, run.name)),
-        columns.map(({ key, text }) => names.map((name, i) => {
+        columns.map((row) => names.map((name, i) => {
             const variant = run.variants.find((one) => one.name === name);
-            const value = variant?.summary[key];
-            const never = variant && isNever({ key }, variant);
-            const heat = never ? 1 : Number.isFinite(value) ? Math.sqrt(Math.max(0, value) / most.get(key)) * 0.85 : null;
+            const value = variant?.summary[row.key];
+            const never = variant && isNever(row, variant);
+            const heat = never ? 1 : Number.isFinite(value) ? Math.sqrt(Math.max(0, value) / most.get(row.key)) * 0.85 : null;
             return make('td', { class: `cell ${i ? '' : 'starts'}` }, make('a', {
                 href: `#${run.id}`, class: heat === null ? 'blank' : never ? 'never' : null, style: heat === null ? null : `--heat: ${(100 * heat).toFixed(0)}%`,
-                'aria-label': `${run.name}, ${name}, ${titles[key]}: ${variant ? text(value ?? null, variant.summary) : 'not run'}`,
-            }, variant ? (key === 'flip_settled' || key === 'rmse_moving' ? fixedDigits(3) : text)(value ?? null, variant.summary) : '\u2013'));
+                'aria-label': `${run.name}, ${name}, ${row.label}: ${variant ? summaryText(row, variant) : 'not run'}`,
+            }, variant ? summaryText(row, variant) : '\u2013'));
         }))));
     return make('section', { class: 'card overview' }, make('h2', {}, 'At a glance'), makeTable('Experiments and variants', head, rows),
         make('p', { class: 'hint' }, 'The stronger the color, the more lag or error. Every cell leads to its experiment.'));

@@ -1,14 +1,10 @@
-const lagMeasures = [
-    { key: 't90', label: 't90' },
-    { key: 'lag_frames', label: 'lag frames' },
-    { key: 'ghost_frames', label: 'ghost frames' },
-];
+const lagMeasures = ['t90', 'lag_frames', 'ghost_frames'];
 
 /// What is swept trades noise for lag: a curve for each filter, closer to the corner is better.
 class TradeOff {
     constructor(run) {
         this.run = run;
-        this.measures = lagMeasures.filter(({ key }) => run.variants.some((variant) => Number.isFinite(variant.summary[key])));
+        this.measures = lagMeasures.map(metricRow).filter(({ key }) => run.variants.some((variant) => Number.isFinite(variant.summary[key])));
         this.key = this.measures[0]?.key;
         const keys = [...new Set(run.variants.flatMap((variant) => variant.summary.sweep?.key ?? []))];
         this.plot = make('div', { class: 'plot', role: 'img' });
@@ -32,7 +28,7 @@ class TradeOff {
         const byName = new Map();
         for (const variant of this.run.variants) {
             const { sweep, rmse_settled: x, [this.key]: y } = variant.summary;
-            const never = isNever({ key: this.key }, variant);
+            const never = isNever(metricRow(this.key), variant);
             if (!Number.isFinite(x) || !(Number.isFinite(y) || never)) continue;
             const name = sweep ? sweep.variant : variant.name;
             const point = { x, y: never ? null : y, variant, value: sweep?.value ?? null, text: sweep ? String(sweep.value) : variant.name };
@@ -52,13 +48,13 @@ class TradeOff {
         const yOf = (y) => (y === null ? top - 12 : top + (1 - Math.sqrt(y / yHigh)) * (height - top - bottom));
         const xs = ticksBetween(0, xHigh, width / 110);
         const ys = [...new Set([...ticksBetween(0, yHigh / 10, 4), ...ticksBetween(0, yHigh, 4)])];
-        const label = this.measures.find(({ key }) => key === this.key).label;
+        const { label } = metricRow(this.key);
         const parts = [
             ...ys.flatMap((y) => [makeSvg('line', { class: 'grid', x1: left, x2: width - right, y1: yOf(y), y2: yOf(y) }),
                 makeSvg('text', { class: 'tick', x: left - 8, y: yOf(y) + 4, 'text-anchor': 'end' }, String(Number(y.toFixed(2))))]),
             ...xs.map((x) => makeSvg('text', { class: 'tick', x: xOf(x), y: height - bottom + 20, 'text-anchor': 'middle' }, tickText(x, xs))),
             makeSvg('text', { class: 'tick axis', x: width - right, y: height - 8, 'text-anchor': 'end' }, 'settled RMSE \u2192'),
-            makeSvg('text', { class: 'tick axis', x: 0, y: 12 }, `\u2191 ${label}, frames`),
+            makeSvg('text', { class: 'tick axis', x: 0, y: 12 }, `\u2191 ${labelWithUnit(metricRow(this.key))}`),
         ];
         if (points.some(({ y }) => y === null)) {
             parts.push(makeSvg('line', { class: 'level', x1: left, x2: width - right, y1: yOf(null), y2: yOf(null) }),

@@ -197,7 +197,7 @@ class Viewer {
         const variant = this.run.variants.find((one) => one.name === name);
         const key = this.run.metricKeys.includes('flip') ? 'flip' : 'rmse';
         const value = variant && metricValue(variant, key, frame);
-        if (drawable && this.layer === 'picture') note.textContent = typeof value === 'number' ? `${metricText(key).label} ${shortNumber(value)}` : '';
+        if (drawable && this.layer === 'picture') note.textContent = typeof value === 'number' ? `${metricRow(key).label} ${shortNumber(value)}` : '';
         else note.textContent = source.label.split(' \u00b7 ')[1] ?? '';
     }
 }

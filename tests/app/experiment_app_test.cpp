@@ -49,8 +49,7 @@ TEST_CASE("an experiment writes frames, numbers and a contact sheet, and tells t
     CAPTURE(run.err);
     REQUIRE(run.exitCode == 0);
     CHECK(run.err == "");
-    for (const char* word :
-         {"fixed", "svgf", "asvgf", "t50", "t90", "ghost frames", "rmse settled"})
+    for (const char* word : {"fixed", "svgf", "asvgf", "t50", "t90", "ghost frames", "RMSE"})
         CHECK(run.out.find(word) != std::string::npos);
     CHECK(run.out.find("contact sheet: " + out + "/contact_sheet.png\n") != std::string::npos);
 

@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include "renderer/image/image_io.h"
+#include "tests/support/source_dir.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -115,6 +116,30 @@ TEST_CASE("the parts of a run, merged, are the run, byte for byte but for times"
     CHECK(isOneErrorLine(mixed.err));
     CHECK(mixed.err.find("part1/experiment.json: this is a part of another run than") !=
           std::string::npos);
+}
+
+TEST_CASE("a run of a file that is gone can be merged and reported") {
+    const TemporaryFolder folder;
+    const std::string scene = folder / "scene.gltf";
+    fs::copy_file(sourceDir() / "assets/scenes/cornell.gltf", scene);
+    const std::string file = folder.write("own.json", R"({
+    "name": "own", "scene": "./scene.gltf", "size": [61, 37], "frames": 8, "variants": ["fixed"],
+    "timeline": [{"frame": 4, "light": "key", "on": false}],
+    "referenceSamples": 16, "settledWindow": 2})");
+    REQUIRE(experiment({file}, folder / "whole").exitCode == 0);
+    REQUIRE(experiment({file, "--part", "1/2"}, folder / "part1").exitCode == 0);
+    REQUIRE(experiment({file, "--part", "2/2"}, folder / "part2").exitCode == 0);
+    fs::remove(scene);
+
+    const Run merged =
+        afterglow({"merge", folder / "part1", folder / "part2", "--out", folder / "merged"});
+    CAPTURE(merged.err);
+    REQUIRE(merged.exitCode == 0);
+    for (const std::string name : {"experiment.json", "summary.json", "metrics.csv"})
+        CHECK(bytesOf(folder / ("whole/" + name)) == bytesOf(folder / ("merged/" + name)));
+    fs::remove(folder / "merged/report.html");
+    CHECK(afterglow({"report", folder / "merged"}).exitCode == 0);
+    CHECK(fs::exists(folder / "merged/report.html"));
 }
 
 TEST_CASE("a run that was interrupted leaves no half file and goes on where it was") {

@@ -175,7 +175,8 @@ TEST_CASE("lists tell names and meanings") {
         {"filters", {"none", "fixed", "svgf", "asvgf"}},
         {"aovs", {"color", "filtered", "lambda", "history", "alpha", "normal", "depth"}},
         {"contexts", {"auto", "osmesa", "egl", "glfw"}},
-        {"settings", {"alpha"}}};
+        {"settings", {"alpha"}},
+        {"metrics", {"t90", "rmse", "rmse_settled", "ms_per_frame"}}};
     for (const auto& [kind, names] : expected) {
         CAPTURE(kind);
         const Run run = afterglow({"list", kind});

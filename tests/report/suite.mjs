@@ -6,6 +6,7 @@ const summary = readJson('summary.json').variants;
 
 /// Eleven experiments, as many as the program ships, with the pictures of the one.
 const suite = () => alteredReport('suite.html', (data) => ({
+    ...data,
     suite: true,
     runs: Array.from({ length: 11 }, (_, i) => {
         const run = structuredClone(data.runs[0]);

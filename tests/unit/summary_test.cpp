@@ -42,7 +42,7 @@ MetricsTable lagging(double start, double end) {
 
 Json summaryOfMade(const std::string& timeline, const MetricsTable& table) {
     const Experiment experiment = experimentOf(timeline);
-    return summaryOf(experiment, planOf(experiment), table).at("variants").at("svgf");
+    return summaryOf(experiment, outlineOf(planOf(experiment)), table).at("variants").at("svgf");
 }
 
 } // namespace
