@@ -14,7 +14,7 @@ constexpr std::string_view kHead =
     "frame,event,probe,x,y,width,height,pane,name,pixels,lit,raw_lit,"
     "raw_variance,variance,lambda,alpha,history,response\n";
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
     if (text.find_first_of(",\"\r\n") == std::string_view::npos)
         return std::string(text);
     std::string out = "\"";
@@ -55,10 +55,10 @@ std::string rowOf(const ProbeFrame& frame, std::size_t probe, std::size_t pane,
     const Probe& box = *frame.probes[probe];
     const ProbeSample& sample = *frame.samples[probe][pane];
     std::string row =
-        std::to_string(frame.frame) + "," + quoted(eventsOf(frame)) + "," + letterOf(probe);
+        std::to_string(frame.frame) + "," + inQuotes(eventsOf(frame)) + "," + letterOf(probe);
     for (const int value : {box.min.x, box.min.y, box.size.x, box.size.y})
         row += "," + std::to_string(value);
-    row += std::string(",") + letterOf(pane) + "," + quoted(frame.panes[pane]) + "," +
+    row += std::string(",") + letterOf(pane) + "," + inQuotes(frame.panes[pane]) + "," +
            std::to_string(sample.pixels);
     for (const double value : {sample.lit, sample.rawLit, sample.rawVariance, sample.variance,
                                sample.lambda, sample.alpha, sample.history})
