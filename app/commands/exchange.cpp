@@ -157,7 +157,7 @@ Experiment importedExperiment(const ImportOptions& options) {
 /// The external variants of a run: those that were imported into its folder before, as far as their
 /// measures still hold, and the new one.
 std::vector<Variant> externalVariants(const ImportOptions& options, const Experiment& experiment,
-                                      const RunPlan& plan, const ReferenceMaker& maker) {
+                                      const StagedRun& run, const ReferenceMaker& maker) {
     const fs::path folder = options.out;
     const std::string& name = options.name;
     const Variant added{.name = name, .filter = Filter::None, .external = true};
@@ -166,7 +166,7 @@ std::vector<Variant> externalVariants(const ImportOptions& options, const Experi
         for (const Variant& variant : parseExperiment(before->dump(), folder.string()).variants) {
             if (!variant.external || variant.name == name)
                 continue;
-            if (isMeasured(variant, experiment, plan, maker, folder))
+            if (isMeasured(variant, experiment, run, maker, folder))
                 variants.push_back(variant);
             else
                 log(LogLevel::Warning,
@@ -182,13 +182,13 @@ std::vector<Variant> externalVariants(const ImportOptions& options, const Experi
 void runExportCommand(const ExportOptions& options, HiddenContextFactory hiddenContext) {
     const std::vector<const AovInfo*> more = chosenAovs(options.aovs);
     const Experiment experiment = experimentOf(options);
-    const RunPlan plan = planOf(experiment);
+    const StagedRun run = stagedRun(experiment);
     const OutputFolder folder(options.out);
     Headless headless(options.context, hiddenContext);
     headless.resize(experiment.size);
     {
         Progress progress(experiment.frames());
-        exportFrames(experiment, plan, headless.renderer, headless.gl, more, options.format, folder,
+        exportFrames(experiment, run, headless.renderer, headless.gl, more, options.format, folder,
                      progress);
     }
     std::printf("%s: %d frames of %dx%d for a denoiser; in %s\n", experiment.name.c_str(),
@@ -198,7 +198,7 @@ void runExportCommand(const ExportOptions& options, HiddenContextFactory hiddenC
 void runImportCommand(const ImportOptions& options, HiddenContextFactory hiddenContext) {
     requireFreeName(options.name);
     Experiment experiment = importedExperiment(options);
-    const RunPlan plan = planOf(experiment);
+    const StagedRun run = stagedRun(experiment);
     const ImportedFrames frames(options.name, options.frames, options.quantity, experiment.size,
                                 experiment.frames());
     if (!options.fresh)
@@ -207,12 +207,12 @@ void runImportCommand(const ImportOptions& options, HiddenContextFactory hiddenC
     Headless headless(options.context, hiddenContext);
     headless.resize(experiment.size);
     ReferenceStore store = makeStore(options.cache, headless);
-    for (const Variant& variant : externalVariants(options, experiment, plan, store.maker()))
+    for (const Variant& variant : externalVariants(options, experiment, run, store.maker()))
         experiment.variants.push_back(variant);
     catchInterrupts();
     {
-        Progress progress(workOf(experiment, plan, {}));
-        runExperiment(experiment, plan, headless.renderer, headless.gl, store, out,
+        Progress progress(workOf(experiment, run.plan, {}));
+        runExperiment(experiment, run, headless.renderer, headless.gl, store, out,
                       {.fresh = options.fresh, .imported = &frames}, progress);
     }
     Json summary = readJson(out.path() / "summary.json");

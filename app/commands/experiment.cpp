@@ -103,11 +103,11 @@ void printRun(const Experiment& experiment, const fs::path& folder) {
 
 void runAll(const std::vector<Experiment>& experiments, const ExperimentOptions& options,
             HiddenContextFactory hiddenContext) {
-    std::vector<RunPlan> plans;
+    std::vector<StagedRun> runs;
     double work = 0.0;
     for (const Experiment& experiment : experiments) {
-        plans.push_back(planOf(experiment));
-        work += workOf(experiment, plans.back(), options.run.part);
+        runs.push_back(stagedRun(experiment));
+        work += workOf(experiment, runs.back().plan, options.run.part);
     }
     const bool isSuite = experiments.size() > 1;
     const auto folderOf = [&](const Experiment& experiment) {
@@ -129,7 +129,7 @@ void runAll(const std::vector<Experiment>& experiments, const ExperimentOptions&
         Progress progress(work);
         for (std::size_t i = 0; i < experiments.size(); ++i) {
             headless.resize(experiments[i].size);
-            runExperiment(experiments[i], plans[i], headless.renderer, headless.gl, store,
+            runExperiment(experiments[i], runs[i], headless.renderer, headless.gl, store,
                           OutputFolder(folderOf(experiments[i])), options.run, progress);
         }
     }

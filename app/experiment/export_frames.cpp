@@ -90,7 +90,7 @@ Image<glm::vec4> previousDepth(const Renderer& renderer) {
 
 } // namespace
 
-void exportFrames(const Experiment& experiment, const RunPlan& plan, Renderer& renderer,
+void exportFrames(const Experiment& experiment, const StagedRun& run, Renderer& renderer,
                   const GlInfo& gl, const std::vector<const AovInfo*>& more,
                   const std::string& format, const OutputFolder& folder, Progress& progress) {
     std::vector<const AovInfo*> aovs;
@@ -104,10 +104,10 @@ void exportFrames(const Experiment& experiment, const RunPlan& plan, Renderer& r
     const Settings settings = settingsOf(variantOf(Filter::None), experiment.signal);
     const float aspect = float(experiment.size.x) / float(experiment.size.y);
     Json frames = Json::array();
-    renderer.setScene(plan.scene);
+    renderer.setScene(run.scene);
     renderer.resize(experiment.size);
     for (int frame = 0; frame < experiment.frames(); ++frame) {
-        const FrameInput input = inputAt(experiment, plan, frame);
+        const FrameInput input = inputAt(experiment, run.plan, frame);
         renderer.render(input, settings);
         for (const AovInfo* aov : aovs)
             writeAov(folder, format, renderer, *aov, frame);

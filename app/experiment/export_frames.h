@@ -15,7 +15,7 @@ namespace afterglow {
 /// needs: raw, albedo, emission, normal, depth, motion and previous_depth, then `more` AOVs, which
 /// the filter `none` makes; `format` is "exr" or "pfm". Last of all export.json, which says what
 /// they mean: docs/denoisers.md. The renderer's scene and size are set by this.
-void exportFrames(const Experiment& experiment, const RunPlan& plan, Renderer& renderer,
+void exportFrames(const Experiment& experiment, const StagedRun& run, Renderer& renderer,
                   const GlInfo& gl, const std::vector<const AovInfo*>& more,
                   const std::string& format, const OutputFolder& folder, Progress& progress);
 

@@ -41,7 +41,7 @@ Image<glm::u8vec4> grayOf(const Image<float>& map) {
 }
 
 // Everything that the files of a variant depend on; of an external one, its frames apart.
-std::string keyOf(const Variant& variant, const Experiment& experiment, const RunPlan& plan,
+std::string keyOf(const Variant& variant, const Experiment& experiment, const StagedRun& run,
                   const ReferenceMaker& maker, FrameRange own) {
     Experiment alone = experiment;
     alone.variants = {variant};
@@ -49,9 +49,9 @@ std::string keyOf(const Variant& variant, const Experiment& experiment, const Ru
     hash.add(toJson(alone));
     hash.add(programFingerprint());
     // The scene, the shaders and the driver: all that a converged picture of it depends on.
-    const FrameInput input = inputAt(experiment, plan, 0);
+    const FrameInput input = inputAt(experiment, run.plan, 0);
     const Settings settings = settingsOf(variant, experiment.signal);
-    hash.add(referenceKey({.scene = plan.scene,
+    hash.add(referenceKey({.scene = run.scene,
                            .size = experiment.size,
                            .seen = input,
                            .world = input,
@@ -65,18 +65,18 @@ std::string keyOf(const Variant& variant, const Experiment& experiment, const Ru
 
 class Run {
 public:
-    Run(const Experiment& experiment, const RunPlan& plan, Renderer& renderer, const GlInfo& gl,
+    Run(const Experiment& experiment, const StagedRun& staged, Renderer& renderer, const GlInfo& gl,
         ReferenceStore& store, const OutputFolder& folder, const RunOptions& options,
         Progress& progress)
-        : experiment_(experiment), plan_(plan), renderer_(renderer), gl_(gl), store_(store),
-          folder_(folder), options_(options), progress_(progress),
-          own_(framesOf(options.part, experiment.frames())), truths_(experiment, plan) {}
+        : experiment_(experiment), staged_(staged), plan_(staged.plan), renderer_(renderer),
+          gl_(gl), store_(store), folder_(folder), options_(options), progress_(progress),
+          own_(framesOf(options.part, experiment.frames())), truths_(experiment, staged.plan) {}
 
     void run();
 
 private:
     std::string key(const Variant& variant) const {
-        return keyOf(variant, experiment_, plan_, store_.maker(), own_);
+        return keyOf(variant, experiment_, staged_, store_.maker(), own_);
     }
     bool isImported(const Variant& variant) const {
         return variant.external && options_.imported &&
@@ -96,6 +96,7 @@ private:
     }
 
     const Experiment& experiment_;
+    const StagedRun& staged_;
     const RunPlan& plan_;
     Renderer& renderer_;
     const GlInfo& gl_;
@@ -126,17 +127,17 @@ void Run::makeReferences() {
     requireSoundContext(); // rather than after hours
     const OutputFolder out = folder_.subfolder("reference");
     Json spent = Json::array();
-    for (std::size_t i = 0; i < plan_.moments.size(); ++i) {
-        const Moment& moment = plan_.moments[i];
-        if (!truths_.has(i) || !own_.contains(moment.first))
+    for (std::size_t i = 0; i < plan_.intervals.size(); ++i) {
+        const Interval& interval = plan_.intervals[i];
+        if (!truths_.has(i) || !own_.contains(interval.first))
             continue;
         const Truth& truth = truths_.of(i);
         if (countOf(truth.foreground) == 0)
-            throw InputError(experiment_.name + ": the camera of " + plan_.scene.name +
-                             " sees no surface in frame " + std::to_string(moment.first) +
+            throw InputError(experiment_.name + ": the camera of " + staged_.scene.name +
+                             " sees no surface in frame " + std::to_string(interval.first) +
                              ", so there is nothing to measure");
-        out.writePng(frameStem("frame", moment.first) + ".png", truth.display);
-        spent.push_back({{"first", moment.first}, {"ms", truth.milliseconds}});
+        out.writePng(frameStem("frame", interval.first) + ".png", truth.display);
+        spent.push_back({{"first", interval.first}, {"ms", truth.milliseconds}});
     }
     out.writeJson("timing.json", {{"references", spent}});
 }
@@ -230,7 +231,7 @@ void Run::finishVariant(const Variant& variant, const MetricsTable& table, const
 }
 
 Json Run::describeRun() const {
-    Json scene = describe(plan_.scene, renderer_.sceneStats());
+    Json scene = describe(staged_.scene, renderer_.sceneStats());
     scene.erase("bvh_build_ms"); // a time: the same run gives the same text
     Json json = {{"program", "afterglow"},
                  {"version", version()},
@@ -244,10 +245,10 @@ Json Run::describeRun() const {
                               "surface; psnr, ssim and flip of the display image"}};
     writeOutline(outlineOf(plan_), json);
     json["references"] = Json::array();
-    for (std::size_t i = 0; i < plan_.moments.size(); ++i)
-        if (truths_.has(i) && own_.contains(plan_.moments[i].first))
-            json["references"].push_back({{"first", plan_.moments[i].first},
-                                          {"end", plan_.moments[i].end},
+    for (std::size_t i = 0; i < plan_.intervals.size(); ++i)
+        if (truths_.has(i) && own_.contains(plan_.intervals[i].first))
+            json["references"].push_back({{"first", plan_.intervals[i].first},
+                                          {"end", plan_.intervals[i].end},
                                           {"samples", experiment_.referenceSamples},
                                           {"residual_rmse", truths_.of(i).residual}});
     json["settings"] = Json::object();
@@ -274,7 +275,7 @@ void Run::run() {
     progress_.skip(perVariant * double(done) / double(experiment_.variants.size()));
 
     if (own_.frames() > 0 && (!missing.empty() || !isWritten)) {
-        renderer_.setScene(plan_.scene);
+        renderer_.setScene(staged_.scene);
         renderer_.resize(experiment_.size);
         makeReferences();
         for (const Variant* variant : missing)
@@ -295,10 +296,10 @@ FrameRange framesOf(Part part, int frames) {
     return {start(part.index - 1), start(part.index)};
 }
 
-bool isMeasured(const Variant& variant, const Experiment& experiment, const RunPlan& plan,
+bool isMeasured(const Variant& variant, const Experiment& experiment, const StagedRun& run,
                 const ReferenceMaker& maker, const std::filesystem::path& folder) {
     return finishedKey(folder / variant.name) ==
-           keyOf(variant, experiment, plan, maker, {0, experiment.frames()});
+           keyOf(variant, experiment, run, maker, {0, experiment.frames()});
 }
 
 double workOf(const Experiment& experiment, const RunPlan& plan, Part part) {
@@ -308,10 +309,10 @@ double workOf(const Experiment& experiment, const RunPlan& plan, Part part) {
            double(experiment.variants.size()) * frames * kFrameWork;
 }
 
-void runExperiment(const Experiment& experiment, const RunPlan& plan, Renderer& renderer,
+void runExperiment(const Experiment& experiment, const StagedRun& run, Renderer& renderer,
                    const GlInfo& gl, ReferenceStore& store, const OutputFolder& folder,
                    const RunOptions& options, Progress& progress) {
-    Run(experiment, plan, renderer, gl, store, folder, options, progress).run();
+    Run(experiment, run, renderer, gl, store, folder, options, progress).run();
 }
 
 } // namespace afterglow

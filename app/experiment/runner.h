@@ -31,7 +31,7 @@ struct RunOptions {
 
 /// Whether a whole run into this folder has measured the variant, with this program and the same
 /// references.
-bool isMeasured(const Variant& variant, const Experiment& experiment, const RunPlan& plan,
+bool isMeasured(const Variant& variant, const Experiment& experiment, const StagedRun& run,
                 const ReferenceMaker& maker, const std::filesystem::path& folder);
 
 /// The work of a run, in units of Progress.
@@ -45,7 +45,7 @@ double workOf(const Experiment& experiment, const RunPlan& plan, Part part);
 /// not run again: so an interrupted run goes on where it was. What a part leaves is for merge().
 /// Another run in the folder is a UsageError unless `options.fresh`: see run_owner.h.
 /// An external variant can only be there already, unless `options` has its frames: InputError.
-void runExperiment(const Experiment& experiment, const RunPlan& plan, Renderer& renderer,
+void runExperiment(const Experiment& experiment, const StagedRun& run, Renderer& renderer,
                    const GlInfo& gl, ReferenceStore& store, const OutputFolder& folder,
                    const RunOptions& options, Progress& progress);
 

@@ -49,18 +49,19 @@ FrameImages readFrame(const Renderer& renderer, bool withControl, std::size_t st
 }
 
 Meter::Meter(const Experiment& experiment, const RunPlan& plan, const Truths& truths)
-    : experiment_(experiment), plan_(plan), truths_(truths), steps_(plan.moments.size()),
-      stepKnown_(plan.moments.size()) {}
+    : experiment_(experiment), plan_(plan), truths_(truths), steps_(plan.intervals.size()),
+      stepKnown_(plan.intervals.size()) {}
 
-const PictureChange* Meter::changeTo(std::size_t moment) {
-    if (moment == 0 || moment >= steps_.size() || !plan_.moments[moment].isStep())
+const PictureChange* Meter::changeTo(std::size_t interval) {
+    if (interval == 0 || interval >= steps_.size() || !plan_.intervals[interval].isStep())
         return nullptr;
-    if (!stepKnown_[moment]) {
-        stepKnown_[moment] = true;
-        steps_[moment] = PictureChange::between(truths_.of(moment - 1).lit, truths_.of(moment).lit,
-                                                &truths_.of(moment).foreground);
+    if (!stepKnown_[interval]) {
+        stepKnown_[interval] = true;
+        steps_[interval] =
+            PictureChange::between(truths_.of(interval - 1).lit, truths_.of(interval).lit,
+                                   &truths_.of(interval).foreground);
     }
-    return steps_[moment] ? &*steps_[moment] : nullptr;
+    return steps_[interval] ? &*steps_[interval] : nullptr;
 }
 
 void Meter::keep(int frame, const FrameImages& images) {
@@ -88,16 +89,16 @@ void Meter::measure(int frame, const FrameImages& images, MetricsTable& table,
 }
 
 void Meter::measureQuality(int frame, const FrameImages& images) {
-    const std::size_t moment = momentAt(plan_.moments, frame);
-    const Truth& truth = truths_.of(moment);
+    const std::size_t interval = intervalAt(plan_.intervals, frame);
+    const Truth& truth = truths_.of(interval);
     const Mask* mask = &truth.foreground;
     add("rmse", rmse(images.lit, truth.lit, mask));
     add("relmse", relMse(images.lit, truth.lit, mask));
     add("psnr", psnr(unitRange(images.display), unitRange(truth.display), 1.0, mask));
     add("ssim", ssim(images.display, truth.display, mask).mean);
-    if (!flip_ || flipMoment_ != moment) {
+    if (!flip_ || flipInterval_ != interval) {
         flip_.emplace(truth.display);
-        flipMoment_ = moment;
+        flipInterval_ = interval;
     }
     MeasuredImage error = flip_->compare(images.display, mask);
     add("flip", error.mean);
@@ -119,25 +120,25 @@ void Meter::measureQuality(int frame, const FrameImages& images) {
 }
 
 void Meter::measureChange(int frame, const FrameImages& images) {
-    const std::size_t moment = momentAt(plan_.moments, frame);
-    if (const PictureChange* change = changeTo(moment)) {
+    const std::size_t interval = intervalAt(plan_.intervals, frame);
+    if (const PictureChange* change = changeTo(interval)) {
         add("response", change->response(images.lit));
         add("noise", change->noise(images.lit));
     }
     // Where a filter stands before a change, on the scale of that change: see betweenOwnValues().
-    const int next = plan_.moments[moment].end;
+    const int next = plan_.intervals[interval].end;
     if (frame >= next - experiment_.settledWindow && next < experiment_.frames())
-        if (const PictureChange* change = changeTo(moment + 1))
+        if (const PictureChange* change = changeTo(interval + 1))
             add("response_before", change->response(images.lit));
 }
 
 void Meter::measureTrail(int frame, const FrameImages& images) {
     const int origin = std::max(0, frame - kTrailFrames);
-    const std::size_t then = momentAt(plan_.moments, origin);
-    const std::size_t now = momentAt(plan_.moments, frame);
+    const std::size_t then = intervalAt(plan_.intervals, origin);
+    const std::size_t now = intervalAt(plan_.intervals, frame);
     // Where the camera has moved, a pixel shows another surface.
     for (std::size_t i = then + 1; i <= now; ++i)
-        if (plan_.moments[i].cameraMoved)
+        if (plan_.intervals[i].changed.camera)
             return;
     if (then == now)
         return;
@@ -180,9 +181,9 @@ void Meter::addMap(std::size_t signal, const char* name, Image<float> map) {
 void Meter::measureLambda(int frame, const Image<float>& lambda, std::size_t signal) {
     if (lambda.size().x == 0 || frame == 0)
         return;
-    const std::size_t moment = momentAt(plan_.moments, frame);
-    const auto [ideal, strata] = truths_.of(moment).idealLambda(
-        signal, DenoiserSettings{}.gradient.deltaFloor, frame == plan_.moments[moment].first);
+    const std::size_t interval = intervalAt(plan_.intervals, frame);
+    const auto [ideal, strata] = truths_.of(interval).idealLambda(
+        signal, DenoiserSettings{}.gradient.deltaFloor, frame == plan_.intervals[interval].first);
     if (countOf(strata) == 0)
         return;
     const Agreement agreement = compareWeights(lambda, ideal, strata);

@@ -55,16 +55,16 @@ private:
     void addOfSignal(std::size_t signal, const char* metric, double value);
     void addMap(std::size_t signal, const char* name, Image<float> map);
     void keep(int frame, const FrameImages& images);
-    const PictureChange* changeTo(std::size_t moment);
+    const PictureChange* changeTo(std::size_t interval);
     void add(std::string metric, double value) { rows_.emplace_back(std::move(metric), value); }
 
     const Experiment& experiment_;
     const RunPlan& plan_;
     const Truths& truths_;
-    std::vector<std::optional<PictureChange>> steps_; ///< by moment, made when first asked for
+    std::vector<std::optional<PictureChange>> steps_; ///< by interval, made when first asked for
     std::vector<bool> stepKnown_;
-    std::optional<Flip> flip_; ///< against the display image of flipMoment_
-    std::size_t flipMoment_ = 0;
+    std::optional<Flip> flip_; ///< against the display image of flipInterval_
+    std::size_t flipInterval_ = 0;
     Image<glm::vec4> before_; ///< the frame before
     int beforeFrame_ = -1;
     Flicker flicker_;

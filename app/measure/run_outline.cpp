@@ -22,10 +22,10 @@ std::vector<int> framesIn(const JsonReader& json, int frames) {
 
 RunOutline outlineOf(const RunPlan& plan) {
     RunOutline outline{.events = plan.events, .settled = plan.settled, .pictures = plan.pictures};
-    for (const Moment& moment : plan.moments) {
-        outline.references.push_back({moment.first, moment.end});
-        if (moment.first > 0 && (moment.lightsChanged || moment.worldMoved))
-            outline.changes.push_back(moment.first);
+    for (const Interval& interval : plan.intervals) {
+        outline.references.push_back({interval.first, interval.end});
+        if (interval.first > 0 && interval.changed.relights())
+            outline.changes.push_back(interval.first);
     }
     return outline;
 }

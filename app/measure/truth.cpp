@@ -1,7 +1,5 @@
 #include "app/measure/truth.h"
 
-#include "app/scenario/frame_change.h"
-
 #include <algorithm>
 #include <set>
 
@@ -24,7 +22,7 @@ Image<float> Truth::idealAlpha(std::size_t signal, const Image<float>& history,
 GroundTruth::GroundTruth(Renderer& renderer, const Request& request, ReferenceStore* store)
     : renderer_(renderer), request_(request), store_(store),
       changed_(request.before &&
-               lightOrGeometryDiffers(renderer.scene(), request.now, *request.before)),
+               changeBetween(renderer.scene(), *request.before, request.now).relights()),
       total_(changed_ ? 2 * request.samples : request.samples) {
     request_.now.seed = referenceSeed(request.now.seed);
     startOn(request_.now);
@@ -67,30 +65,28 @@ void GroundTruth::keepNow() {
 }
 
 FrameInput inputAt(const Experiment& experiment, const RunPlan& plan, int frame) {
-    const double seconds = experiment.seconds(frame);
-    return {.camera = cameraAt(plan.scene, poseAt(plan.scene, seconds)),
-            .seconds = seconds,
-            .frame = std::uint32_t(frame),
-            .seed = experiment.seed,
-            .lights = plan.moments[momentAt(plan.moments, frame)].lights};
+    const Interval& interval = plan.intervals[intervalAt(plan.intervals, frame)];
+    FrameInput input = interval.start.input(std::uint32_t(frame), experiment.seed);
+    input.seconds = experiment.seconds(frame);
+    return input;
 }
 
 Truths::Truths(const Experiment& experiment, const RunPlan& plan)
-    : experiment_(experiment), plan_(plan), truths_(plan.moments.size()) {}
+    : experiment_(experiment), plan_(plan), truths_(plan.intervals.size()) {}
 
 std::vector<std::size_t> Truths::neededFor(FrameRange range) const {
-    const std::vector<Moment>& moments = plan_.moments;
+    const std::vector<Interval>& intervals = plan_.intervals;
     std::set<std::size_t> needed;
-    const std::size_t first = momentAt(moments, std::max(0, range.first - kTrailFrames));
-    const std::size_t last = momentAt(moments, range.end - 1);
+    const std::size_t first = intervalAt(intervals, std::max(0, range.first - kTrailFrames));
+    const std::size_t last = intervalAt(intervals, range.end - 1);
     for (std::size_t i = first; i <= last; ++i)
         needed.insert(i);
     // The change to come, of which the frames before it show nothing yet.
-    if (last + 1 < moments.size() && moments[last + 1].isStep() &&
-        moments[last + 1].first - experiment_.settledWindow < range.end)
+    if (last + 1 < intervals.size() && intervals[last + 1].isStep() &&
+        intervals[last + 1].first - experiment_.settledWindow < range.end)
         needed.insert(last + 1);
-    // A step is from the moment before.
-    if (moments[first].isStep() && first > 0)
+    // A step is from the interval before.
+    if (intervals[first].isStep() && first > 0)
         needed.insert(first - 1);
     return {needed.begin(), needed.end()};
 }
@@ -98,9 +94,8 @@ std::vector<std::size_t> Truths::neededFor(FrameRange range) const {
 int Truths::countFor(FrameRange range) const {
     int count = 0;
     for (const std::size_t i : neededFor(range)) {
-        const Moment& moment = plan_.moments[i];
-        const bool changed = moment.lightsChanged || moment.worldMoved;
-        count += 1 + int(changed && range.contains(moment.first));
+        const Interval& interval = plan_.intervals[i];
+        count += 1 + int(interval.changed.relights() && range.contains(interval.first));
     }
     return count;
 }
@@ -110,7 +105,7 @@ void Truths::make(Renderer& renderer, ReferenceStore& store, FrameRange range,
     Settings settings;
     settings.lighting.signal = int(experiment_.signal);
     for (const std::size_t i : neededFor(range)) {
-        const int first = plan_.moments[i].first;
+        const int first = plan_.intervals[i].first;
         GroundTruth::Request request{.now = inputAt(experiment_, plan_, first),
                                      .before = {},
                                      .settings = settings,

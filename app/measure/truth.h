@@ -82,9 +82,9 @@ public:
     /// How many references make() would ask the store for.
     int countFor(FrameRange range) const;
 
-    const Truth& of(std::size_t moment) const { return *truths_.at(moment); }
-    bool has(std::size_t moment) const { return truths_.at(moment).has_value(); }
-    const Truth& at(int frame) const { return of(momentAt(plan_.moments, frame)); }
+    const Truth& of(std::size_t interval) const { return *truths_.at(interval); }
+    bool has(std::size_t interval) const { return truths_.at(interval).has_value(); }
+    const Truth& at(int frame) const { return of(intervalAt(plan_.intervals, frame)); }
 
 private:
     std::vector<std::size_t> neededFor(FrameRange range) const;

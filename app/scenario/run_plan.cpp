@@ -8,17 +8,17 @@
 namespace afterglow {
 namespace {
 
-bool isLit(const Moment& moment, Signal signal) {
-    return seesSurroundings(signal) || std::ranges::any_of(moment.lights, [](const auto& light) {
-               return light.scale() != glm::vec3(0.0f);
-           });
+bool isLit(const Interval& interval, Signal signal) {
+    return seesSurroundings(signal) ||
+           std::ranges::any_of(interval.start.lights,
+                               [](const auto& light) { return light.scale() != glm::vec3(0.0f); });
 }
 
 FrameRange settledRange(const RunPlan& plan, const Experiment& experiment) {
-    const Moment* settled = &plan.moments.back();
-    for (const Moment& moment : plan.moments)
-        if (isLit(moment, experiment.signal) && moment.frames() > 1) {
-            settled = &moment;
+    const Interval* settled = &plan.intervals.back();
+    for (const Interval& interval : plan.intervals)
+        if (isLit(interval, experiment.signal) && interval.frames() > 1) {
+            settled = &interval;
             break;
         }
     return {std::max(settled->first, settled->end - experiment.settledWindow), settled->end};
@@ -34,20 +34,20 @@ std::string textAt(const Timeline& timeline, FrameRange change) {
 
 std::vector<RunEvent> eventsOf(const RunPlan& plan, const Timeline& timeline) {
     std::vector<RunEvent> events;
-    for (std::size_t i = 1; i < plan.moments.size(); ++i) {
-        const Moment& moment = plan.moments[i];
-        if (moment.isStep()) {
+    for (std::size_t i = 1; i < plan.intervals.size(); ++i) {
+        const Interval& interval = plan.intervals[i];
+        if (interval.isStep()) {
             events.push_back(
-                {.kind = RunEvent::Kind::Step, .change = {moment.first, moment.first + 1}});
+                {.kind = RunEvent::Kind::Step, .change = {interval.first, interval.first + 1}});
             continue;
         }
         const bool goesOn = !events.empty() && events.back().kind == RunEvent::Kind::Motion &&
-                            events.back().change.end == moment.first;
+                            events.back().change.end == interval.first;
         if (goesOn)
-            events.back().change.end = moment.first + 1;
+            events.back().change.end = interval.first + 1;
         else
             events.push_back(
-                {.kind = RunEvent::Kind::Motion, .change = {moment.first, moment.first + 1}});
+                {.kind = RunEvent::Kind::Motion, .change = {interval.first, interval.first + 1}});
     }
     for (std::size_t i = 0; i < events.size(); ++i) {
         events[i].end = i + 1 < events.size() ? events[i + 1].change.first : timeline.frames();
@@ -80,15 +80,17 @@ std::vector<int> picturesOf(const std::vector<RunEvent>& events, int frames) {
 
 } // namespace
 
-RunPlan planOf(const Experiment& experiment) {
-    RunPlan plan;
-    plan.scene = experiment.timeline.staged(loadScene(experiment.scene), experiment.rate,
-                                            experiment.animated, experiment.name);
-    plan.moments = momentsOf(experiment.timeline, plan.scene, experiment.rate);
-    plan.events = eventsOf(plan, experiment.timeline);
+StagedRun stagedRun(const Experiment& experiment) {
+    const Timeline& timeline = experiment.timeline;
+    StagedRun run{.scene = timeline.staged(loadScene(experiment.scene), experiment.rate,
+                                           experiment.animated, experiment.name),
+                  .plan = {}};
+    RunPlan& plan = run.plan;
+    plan.intervals = intervalsOf(timeline, run.scene, experiment.rate);
+    plan.events = eventsOf(plan, timeline);
     plan.settled = settledRange(plan, experiment);
     plan.pictures = picturesOf(plan.events, experiment.frames());
-    return plan;
+    return run;
 }
 
 } // namespace afterglow

@@ -27,18 +27,23 @@ struct RunEvent {
 /// How many frames back the trail of what moves is looked for.
 inline constexpr int kTrailFrames = 16;
 
-/// Everything of a run that can be told before a picture is made.
+/// What is known of a run before a picture is made.
 struct RunPlan {
-    Scene scene; ///< staged
-    std::vector<Moment> moments;
+    std::vector<Interval> intervals;
     std::vector<RunEvent> events; ///< changes of what is seen or how it is lit, in order
-    /// The last Experiment::settledWindow frames of the first stretch, of two frames or more, in
-    /// which there is light and nothing changes; of the last stretch if there is none.
+    /// The last Experiment::settledWindow frames of the first interval, of two frames or more, in
+    /// which there is light; of the last interval if there is none.
     FrameRange settled;
     std::vector<int> pictures; ///< the frames that reports show, rising
 };
 
+/// A run that can begin: its scene, with the motions of its timeline, and its plan.
+struct StagedRun {
+    Scene scene;
+    RunPlan plan;
+};
+
 /// InputError names what the scene does not have; see loadScene() for the scene itself.
-RunPlan planOf(const Experiment& experiment);
+StagedRun stagedRun(const Experiment& experiment);
 
 } // namespace afterglow

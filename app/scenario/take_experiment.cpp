@@ -74,7 +74,7 @@ Pace paceOf(const Take& take) {
     if (take.frames.size() < 2)
         return {};
     const auto moved =
-        std::ranges::find_if(take.frames, [&](const FrameMoment& m) { return m.seconds != first; });
+        std::ranges::find_if(take.frames, [&](const SceneFrame& m) { return m.seconds != first; });
     if (moved == take.frames.end())
         return {};
     Pace pace{.advances = true};
@@ -129,12 +129,6 @@ int framesBefore(const Take& take, const Scene& scene, const Pace& pace, int lea
     return int(before);
 }
 
-// --- lights --------------------------------------------------------------------------------------
-
-LightState lightOf(const FrameMoment& moment, std::size_t slot) {
-    return slot < moment.lights.size() ? moment.lights[slot] : LightState{};
-}
-
 // --- camera --------------------------------------------------------------------------------------
 
 bool near(glm::vec3 a, glm::vec3 b, float tolerance) {
@@ -185,16 +179,12 @@ void expectSameLens(const Take& take, const Scene& scene) {
 
 } // namespace
 
-Take takeOf(const Experiment& experiment, const RunPlan& plan) {
+Take takeOf(const Experiment& experiment, const StagedRun& run) {
     Take take{.name = experiment.name};
-    for (const Moment& moment : plan.moments)
-        for (int frame = moment.first; frame < moment.end; ++frame) {
-            const double seconds = experiment.seconds(frame);
-            take.frames.push_back({.seconds = seconds,
-                                   .camera = cameraAt(plan.scene, poseAt(plan.scene, seconds)),
-                                   .lights = moment.lights,
-                                   .step = frame == moment.first && moment.isStep()});
-        }
+    for (int frame = 0; frame < experiment.frames(); ++frame)
+        take.frames.push_back(experiment.timeline.frameAt(run.scene, experiment.rate, frame));
+    for (const Interval& interval : run.plan.intervals)
+        take.frames[std::size_t(interval.first)].step = interval.isStep();
     for (const TimelineEvent& event : withJoinedMoves(experiment.timeline.events()))
         if (const int frame = frameOf(event); frame > 0)
             take.frames[std::size_t(frame)].marks.push_back(describe(event));
@@ -229,11 +219,12 @@ Experiment experimentOf(const Take& take, const Scene& scene, Experiment base, i
 
     std::vector<TimelineEvent> events;
     for (std::size_t i = 0; i < take.frames.size(); ++i) {
-        const FrameMoment& now = take.frames[i];
+        const SceneFrame& now = take.frames[i];
         const int when = i == 0 ? 0 : before + int(i); // in the experiment
         for (std::size_t slot = 0; slot < scene.lights.size(); ++slot) {
-            const LightState was = i == 0 ? LightState{} : lightOf(take.frames[i - 1], slot);
-            if (auto event = changeOf(when, scene.lights[slot].name, was, lightOf(now, slot)))
+            const LightState was = i == 0 ? LightState{} : lightIn(take.frames[i - 1].lights, slot);
+            if (auto event =
+                    changeOf(when, scene.lights[slot].name, was, lightIn(now.lights, slot)))
                 events.emplace_back(*event);
         }
         const bool moves =

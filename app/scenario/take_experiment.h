@@ -9,8 +9,8 @@ namespace afterglow {
 
 /// What the frames of an experiment are given. Marks are its events after frame 0; cameras moved
 /// frame by frame are one motion, marked where it begins. What moves nodes is not in the take: it
-/// is in the plan's scene.
-Take takeOf(const Experiment& experiment, const RunPlan& plan);
+/// is in the run's scene.
+Take takeOf(const Experiment& experiment, const StagedRun& run);
 
 /// An experiment in which lights and camera change as in the take. `base` has all that a take does
 /// not know: name, scene, size, seed, signal, variants; its timeline, rate and `animated` count

@@ -1,9 +1,8 @@
 #include "app/scenario/timeline.h"
 
-#include "app/scenario/frame_change.h"
-
 #include "renderer/base/error.h"
 #include "renderer/base/names.h"
+#include "renderer/pipeline/renderer.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -116,6 +115,13 @@ std::vector<LightState> Timeline::lightsAt(const Scene& scene, int frame) const 
     return lights;
 }
 
+SceneFrame Timeline::frameAt(const Scene& staged, double rate, int frame) const {
+    const double seconds = frame / rate;
+    return {.seconds = seconds,
+            .camera = cameraAt(staged, poseAt(staged, seconds)),
+            .lights = lightsAt(staged, frame)};
+}
+
 Timeline lightTimeline(const Scene& scene, std::vector<LightEvent> events, int frames) {
     std::vector<std::string_view> known;
     for (const Light& light : scene.lights)
@@ -137,32 +143,24 @@ Timeline lightTimeline(const Scene& scene, std::vector<LightEvent> events, int f
     return Timeline(frames, std::move(changes));
 }
 
-std::vector<Moment> momentsOf(const Timeline& timeline, const Scene& staged, double rate) {
-    const std::size_t cameraNode = staged.cameras.at(0).node;
-
-    std::vector<Moment> moments;
-    Pose before;
+std::vector<Interval> intervalsOf(const Timeline& timeline, const Scene& staged, double rate) {
+    std::vector<Interval> intervals;
+    SceneFrame before;
     for (int frame = 0; frame < timeline.frames(); ++frame) {
-        Moment next{.first = frame, .end = frame + 1, .seconds = frame / rate};
-        next.lights = timeline.lightsAt(staged, frame);
-        const Pose pose = poseAt(staged, next.seconds);
-        if (frame > 0) {
-            next.lightsChanged = lightsDiffer(staged, next.lights, moments.back().lights);
-            next.worldMoved = geometryDiffers(staged, pose, before);
-            next.cameraMoved = pose.worldFromNode[cameraNode] != before.worldFromNode[cameraNode];
-        }
-        before = pose;
-        if (frame == 0 || next.lightsChanged || next.worldMoved || next.cameraMoved)
-            moments.push_back(std::move(next));
-        else
-            moments.back().end = frame + 1;
+        SceneFrame now = timeline.frameAt(staged, rate, frame);
+        const SceneChange changed =
+            frame == 0 ? SceneChange{} : changeBetween(staged, before.input(0, 0), now.input(0, 0));
+        if (frame == 0 || changed.any())
+            intervals.push_back({.first = frame, .start = now, .changed = changed});
+        intervals.back().end = frame + 1;
+        before = std::move(now);
     }
-    return moments;
+    return intervals;
 }
 
-std::size_t momentAt(const std::vector<Moment>& moments, int frame) {
-    const auto after = std::ranges::upper_bound(moments, frame, {}, &Moment::first);
-    return std::size_t(after - moments.begin()) - 1;
+std::size_t intervalAt(const std::vector<Interval>& intervals, int frame) {
+    const auto after = std::ranges::upper_bound(intervals, frame, {}, &Interval::first);
+    return std::size_t(after - intervals.begin()) - 1;
 }
 
 } // namespace afterglow

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "renderer/pipeline/light_state.h"
-#include "renderer/scene/scene.h"
+#include "app/scenario/scene_frame.h"
 
 #include <optional>
 #include <string>
@@ -73,6 +72,9 @@ public:
     /// Returns how each light of the scene is set, by slot.
     std::vector<LightState> lightsAt(const Scene& scene, int frame) const;
 
+    /// Returns what a frame is rendered from in the scene that this timeline has staged.
+    SceneFrame frameAt(const Scene& staged, double rate, int frame) const;
+
     /// The scene with this timeline's motions as its tracks, at `rate` frames per second; its own
     /// tracks play only if `animated`. `owner` begins the message of the InputError that names a
     /// light or a node that the scene does not have.
@@ -89,23 +91,20 @@ private:
 Timeline lightTimeline(const Scene& scene, std::vector<LightEvent> events, int frames);
 
 /// The frames [first, end) in which nothing changes: they share one converged picture.
-struct Moment {
+struct Interval {
     int first = 0, end = 0;
-    double seconds = 0.0;             ///< scene time
-    std::vector<LightState> lights{}; ///< by slot
-    // What differs from the moment before:
-    bool lightsChanged = false, worldMoved = false, cameraMoved = false;
+    SceneFrame start{};    ///< what its first frame is rendered from
+    SceneChange changed{}; ///< since the frame before
 
     int frames() const { return end - first; }
-    /// A change of light alone: it has a step response.
-    bool isStep() const { return lightsChanged && !worldMoved && !cameraMoved; }
+    bool isStep() const { return changed.isStep(); }
 };
 
-/// The moments of a timeline in a scene that it has staged: in order, without a gap, each as long
+/// The intervals of a timeline in a scene that it has staged: in order, without a gap, each as long
 /// as it can be. An event that sets what is already so ends none.
-std::vector<Moment> momentsOf(const Timeline& timeline, const Scene& staged, double rate);
+std::vector<Interval> intervalsOf(const Timeline& timeline, const Scene& staged, double rate);
 
-/// The index of the moment that holds a frame.
-std::size_t momentAt(const std::vector<Moment>& moments, int frame);
+/// The index of the interval that holds a frame.
+std::size_t intervalAt(const std::vector<Interval>& intervals, int frame);
 
 } // namespace afterglow

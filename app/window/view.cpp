@@ -44,7 +44,7 @@ struct Opening {
 Opening openingFor(const ViewOptions& options, const Preferences& preferences) {
     if (!options.scene.empty() && Workbench::isExperiment(options.scene)) {
         const Experiment experiment = loadExperiment(options.scene);
-        return {experiment.scene, planOf(experiment).scene, true};
+        return {experiment.scene, stagedRun(experiment).scene, true};
     }
     if (!options.scene.empty())
         return {options.scene, loadScene(options.scene), false};

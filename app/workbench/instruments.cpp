@@ -35,10 +35,10 @@ const GpuTexture& controlOf(const Renderer& renderer, std::size_t pane, std::siz
 } // namespace
 
 void Instruments::measure(Renderer& renderer, const ViewState& state, std::uint32_t frame,
-                          const FrameMoment& moment) {
+                          const SceneFrame& given) {
     frame_ = {.frame = frame, .marks = {}, .panes = {}, .probes = {}, .samples = {}};
-    for (const std::string& mark : moment.marks)
-        frame_->marks.push_back({.text = mark, .step = moment.step, .pane = {}});
+    for (const std::string& mark : given.marks)
+        frame_->marks.push_back({.text = mark, .step = given.step, .pane = {}});
     for (std::size_t i = 0; i < kProbes; ++i)
         if (const auto& placed = state.probes[i])
             frame_->probes[i] = rescaled(placed->probe, placed->image, renderer.size());

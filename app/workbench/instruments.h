@@ -23,7 +23,7 @@ public:
     /// accumulate has an alpha of 1, no history and no lambda. Reasons are counted while the
     /// inspector is open; those of the history are 0 where the filter does not accumulate.
     void measure(Renderer& renderer, const ViewState& state, std::uint32_t frame,
-                 const FrameMoment& moment);
+                 const SceneFrame& given);
     void count(const Renderer& renderer); ///< what FrameStats tells of the last frame
     /// A pixel of the last frame, as PixelQuery::ask().
     void inspect(Renderer& renderer, std::size_t pane, const FrameSettings& settings,

@@ -19,9 +19,9 @@ public:
 
     /// The frame that was rendered last, and the one before it, if there was one.
     struct Moment {
-        FrameMoment now;
+        SceneFrame now;
         std::uint32_t seed = 0; ///< of the whole run
-        std::optional<FrameMoment> before = {};
+        std::optional<SceneFrame> before = {};
     };
     /// Takes the place of an earlier moment. `settings` are those of that frame; its filters are
     /// those that ran. `samples` a pixel, at least 1, for each of the two references; the second is

@@ -63,16 +63,16 @@ void changeLimit(Transport& t, int by) {
     t.frameLimit = kFrameLimits[std::size_t(index)];
 }
 
-void remember(Transport& t, FrameMoment moment) {
-    t.past.push_back({t.frame, moment.marks, moment.step});
+void remember(Transport& t, SceneFrame frame) {
+    t.past.push_back({t.frame, frame.marks, frame.step});
     if (t.past.size() > kPast)
         t.past.pop_front();
     if (t.recording) {
         if (t.recording->frames.empty())
             t.recording->firstFrame = t.frame;
-        t.recording->frames.push_back(moment);
+        t.recording->frames.push_back(frame);
     }
-    t.last = std::move(moment);
+    t.last = std::move(frame);
 }
 
 } // namespace
@@ -92,7 +92,7 @@ double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame) {
     return std::max(0.0, 1.0 / t.frameLimit - kEarly - secondsSinceLastFrame);
 }
 
-FrameMoment nextMoment(Transport& t, const FrameMoment& live) {
+SceneFrame nextFrame(Transport& t, const SceneFrame& live) {
     if (isFinished(t))
         throw std::logic_error("the take '" + t.playing->take.name + "' has no further frame");
     t.given = t.playing ? t.playing->take.frames[t.playing->next] : live;
@@ -103,7 +103,7 @@ FrameMoment nextMoment(Transport& t, const FrameMoment& live) {
 
 void frameRendered(Transport& t, double wallSeconds) {
     if (!t.given)
-        throw std::logic_error("a frame was rendered that nextMoment() has not given");
+        throw std::logic_error("a frame was rendered that nextFrame() has not given");
     remember(t, *std::exchange(t.given, {}));
     ++t.frame;
     t.seconds = timeAfter(t, t.seconds, wallSeconds);
@@ -180,7 +180,7 @@ void play(Transport& t, Take take, bool loop) {
     resume(t);
 }
 
-std::optional<FrameMoment> stopPlaying(Transport& t) {
+std::optional<SceneFrame> stopPlaying(Transport& t) {
     if (!t.playing)
         return {};
     if (isFinished(t))

@@ -59,8 +59,8 @@ struct Playing {
 ///         if (std::exchange(t.resetWanted, false))       // forgets all histories
 ///         if (std::exchange(t.restoreWanted, false))     // they are those of the checkpoint
 ///         if (std::exchange(t.checkpointWanted, false))  // the checkpoint is a copy of them
-///         const FrameMoment moment = nextMoment(t, live);
-///         // renders frame t.frame of that moment
+///         const SceneFrame given = nextFrame(t, live);
+///         // renders `given` as frame t.frame
 ///         frameRendered(t, wallSeconds);
 ///     }
 ///
@@ -75,8 +75,8 @@ struct Transport {
     double seconds = 0.0;    ///< scene time of the next frame
     Repeat repeat{};
 
-    std::deque<PastFrame> past{};      ///< the last kPast frames, the newest last
-    std::optional<FrameMoment> last{}; ///< what the last rendered frame was given
+    std::deque<PastFrame> past{};     ///< the last kPast frames, the newest last
+    std::optional<SceneFrame> last{}; ///< what the last rendered frame was given
 
     std::optional<Playing> playing{}; ///< empty: the person's hand is live
     std::optional<Take> recording{};  ///< since the in point; firstFrame from its first frame on
@@ -87,7 +87,7 @@ struct Transport {
     // Asked for, and done and cleared by the program.
     bool resetWanted = false, restoreWanted = false, checkpointWanted = false;
 
-    std::optional<FrameMoment> given{}; ///< by nextMoment(), until it is rendered
+    std::optional<SceneFrame> given{}; ///< by nextFrame(), until it is rendered
 };
 
 /// Whether a frame is to be rendered now. The very first one always, so that there is something to
@@ -98,9 +98,9 @@ double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame);
 
 /// What the next frame is given: `live`, with the transport's time, or what the played take says.
 /// Where a take has ended there is none: a std::logic_error.
-FrameMoment nextMoment(Transport& t, const FrameMoment& live);
+SceneFrame nextFrame(Transport& t, const SceneFrame& live);
 
-/// After each rendered frame. A std::logic_error if nextMoment() was not asked before it.
+/// After each rendered frame. A std::logic_error if nextFrame() was not asked before it.
 void frameRendered(Transport& t, double wallSeconds);
 
 void togglePause(Transport& t); ///< at the end of a take: plays it again
@@ -127,7 +127,7 @@ void play(Transport& t, Take take, bool loop);
 /// Leaves the take; live play goes on where it is, with the next frame number and the histories as
 /// they are. Returns what the last rendered frame was given: its camera and lights are now the
 /// person's. Empty if no take was played or no frame has been rendered.
-[[nodiscard]] std::optional<FrameMoment> stopPlaying(Transport& t);
+[[nodiscard]] std::optional<SceneFrame> stopPlaying(Transport& t);
 
 /// The histories kept no longer fit, as after a change of resolution: rounds begin without any.
 void checkpointLost(Transport& t);

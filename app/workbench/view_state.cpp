@@ -281,35 +281,34 @@ void notify(ViewState& state, std::string text, bool isError) {
     state.notice = {std::move(text), isError, isError ? 2.0 * kNoticeSeconds : kNoticeSeconds};
 }
 
-FrameMoment liveMoment(ViewState& state) {
+SceneFrame liveFrame(ViewState& state) {
     if (repeatIsDue(state.time))
         cause(state, state.repeated);
     if (state.onPath) {
         state.camera = onPath(stations(state), state.pathSeconds);
         state.pathSeconds += kFixedStep;
     }
-    FrameMoment moment{.seconds = state.time.seconds,
-                       .camera = state.camera,
-                       .lights = state.lights,
-                       .marks = std::exchange(state.marks, {}),
-                       .step = false};
+    SceneFrame frame{.seconds = state.time.seconds,
+                     .camera = state.camera,
+                     .lights = state.lights,
+                     .marks = std::exchange(state.marks, {}),
+                     .step = false};
     const bool cut = std::exchange(state.cutPending, false);
     if (!state.time.last)
-        return moment;
+        return frame;
     const auto changes = describeChange(state.lightNames, state.time.last->lights, state.lights);
     const bool moved = cut && state.time.last->camera != state.camera;
     if (moved)
-        moment.marks.push_back("camera cut");
-    moment.step =
-        !changes.empty() && moment.marks.empty() && state.time.last->camera == state.camera;
-    moment.marks.insert(moment.marks.end(), changes.begin(), changes.end());
-    return moment;
+        frame.marks.push_back("camera cut");
+    frame.step = !changes.empty() && frame.marks.empty() && state.time.last->camera == state.camera;
+    frame.marks.insert(frame.marks.end(), changes.begin(), changes.end());
+    return frame;
 }
 
-void follow(ViewState& state, const FrameMoment& moment) {
-    state.camera = moment.camera;
+void follow(ViewState& state, const SceneFrame& frame) {
+    state.camera = frame.camera;
     for (std::size_t i = 0; i < state.lights.size(); ++i)
-        state.lights[i] = i < moment.lights.size() ? moment.lights[i] : LightState{};
+        state.lights[i] = i < frame.lights.size() ? frame.lights[i] : LightState{};
     state.onPath = false;
 }
 

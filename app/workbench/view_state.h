@@ -169,9 +169,9 @@ void perform(ViewState& state, const Command& command);
 
 /// Before a frame: what the person's hands make of it, with marks of what changed since the last.
 /// What repeats happens here.
-FrameMoment liveMoment(ViewState& state);
+SceneFrame liveFrame(ViewState& state);
 /// While a take plays, the lights and the camera that are seen are its own.
-void follow(ViewState& state, const FrameMoment& moment);
+void follow(ViewState& state, const SceneFrame& frame);
 /// In every round of the loop, rendered or not.
 void passTime(ViewState& state, double wallSeconds);
 

@@ -66,7 +66,7 @@ double Workbench::secondsUntilFrame() const {
 }
 
 // Everything of a frame that is settled before it is rendered.
-FrameMoment Workbench::Impl::prepareFrame(glm::ivec2 view) {
+SceneFrame Workbench::Impl::prepareFrame(glm::ivec2 view) {
     const glm::ivec2 size = renderSize(state.resolution, view);
     if (size != renderer.size()) {
         renderer.resize(size);
@@ -84,21 +84,21 @@ FrameMoment Workbench::Impl::prepareFrame(glm::ivec2 view) {
             renderer.restore(*checkpoint);
         else
             renderer.resetHistory();
-        now = checkpoint ? checkpointMoment : std::nullopt;
+        now = checkpoint ? checkpointFrame : std::nullopt;
     }
     if (std::exchange(time.checkpointWanted, false)) {
         checkpoint = renderer.checkpoint();
-        checkpointMoment = now;
+        checkpointFrame = now;
     }
 
     if (!time.playing)
-        return nextMoment(time, liveMoment(state));
-    FrameMoment moment = nextMoment(time, {});
-    follow(state, moment);
-    return moment;
+        return nextFrame(time, liveFrame(state));
+    SceneFrame frame = nextFrame(time, {});
+    follow(state, frame);
+    return frame;
 }
 
-void Workbench::Impl::render(const FrameMoment& moment) {
+void Workbench::Impl::render(const SceneFrame& frame) {
     const bool shows = state.shown.kind == Shown::Kind::Pass;
     const bool listens = shows || state.showPasses || capturesAll;
     renderer.timer().setEnabled(state.showPasses);
@@ -113,12 +113,7 @@ void Workbench::Impl::render(const FrameMoment& moment) {
     std::vector<FilterRun> runs;
     for (const std::size_t pane : shownPanes(state.panes))
         runs.push_back({pane, state.panes.all[pane].settings});
-    renderer.render({.camera = moment.camera,
-                     .seconds = moment.seconds,
-                     .frame = state.time.frame,
-                     .seed = state.seed,
-                     .lights = moment.lights},
-                    state.panes.frame, runs);
+    renderer.render(frame.input(state.time.frame, state.seed), state.panes.frame, runs);
     if (listens)
         capture.end();
     renderer.setListener(nullptr);
@@ -126,14 +121,14 @@ void Workbench::Impl::render(const FrameMoment& moment) {
 }
 
 void Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
-    const FrameMoment moment = prepareFrame(view);
-    render(moment);
+    const SceneFrame frame = prepareFrame(view);
+    render(frame);
     noteTimes();
     collect(); // of the frame before, while the device has this one to work on
     sinceFrame = 0.0;
-    measure(moment);
+    measure(frame);
     before = std::move(now);
-    now = moment;
+    now = frame;
     nowSeed = state.seed;
     nowSettings = state.panes.frame;
     frameRendered(state.time, wallSeconds);
@@ -154,8 +149,8 @@ void Workbench::Impl::noteTimes() {
     timings.addPasses(rows);
 }
 
-void Workbench::Impl::measure(const FrameMoment& moment) {
-    instruments.measure(renderer, state, state.time.frame, moment);
+void Workbench::Impl::measure(const SceneFrame& frame) {
+    instruments.measure(renderer, state, state.time.frame, frame);
     if (sinceStats >= kStatsSeconds) {
         sinceStats = 0.0;
         instruments.count(renderer);

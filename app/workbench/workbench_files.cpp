@@ -221,9 +221,9 @@ void Workbench::Impl::enter(Scene scene, const std::string& sceneName, const std
 
 void Workbench::Impl::openExperiment(const std::string& nameOrPath) {
     const Experiment wanted = loadExperiment(nameOrPath);
-    RunPlan plan = planOf(wanted);
-    Take take = takeOf(wanted, plan);
-    enter(std::move(plan.scene), wanted.scene, nameOrPath);
+    StagedRun run = stagedRun(wanted);
+    Take take = takeOf(wanted, run);
+    enter(std::move(run.scene), wanted.scene, nameOrPath);
     experiment = wanted.name;
 
     setField(state.panes, fieldByKey("signal"), double(wanted.signal));

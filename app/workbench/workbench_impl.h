@@ -15,10 +15,10 @@ struct Workbench::Impl {
 
     // The order of a round, in workbench.cpp.
     void renderFrame(double wallSeconds, glm::ivec2 view);
-    FrameMoment prepareFrame(glm::ivec2 view);
-    void render(const FrameMoment& moment);
+    SceneFrame prepareFrame(glm::ivec2 view);
+    void render(const SceneFrame& frame);
     void noteTimes();
-    void measure(const FrameMoment& moment);
+    void measure(const SceneFrame& frame);
     void collect();
     void followFreeze();
     void stepPass(int step);
@@ -62,8 +62,8 @@ struct Workbench::Impl {
     std::array<std::optional<ReasonCounts>, kFilterStates> reasons;
     std::optional<Inspection> inspection;
     std::optional<HistoryCheckpoint> checkpoint;
-    std::optional<FrameMoment> now, before; ///< of the last two frames
-    std::optional<FrameMoment> checkpointMoment;
+    std::optional<SceneFrame> now, before; ///< of the last two frames
+    std::optional<SceneFrame> checkpointFrame;
     std::uint32_t nowSeed = 0;
     FrameSettings nowSettings; ///< of the last frame
     bool capturesAll = false;  ///< every pass of the next frame

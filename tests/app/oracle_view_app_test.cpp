@@ -100,12 +100,12 @@ TEST_CASE("a frozen frame has the error and the ideal lambda that an experiment 
                             "variants": ["asvgf"], "referenceSamples": 6,
                             "timeline": [{"frame": 3, "light": "key", "power": 0.25}]})",
                         "t.json");
-    const RunPlan plan = planOf(experiment);
+    const StagedRun run = stagedRun(experiment);
     Renderer judge(testShaders(), glInfo(testContext()));
-    judge.setScene(plan.scene);
+    judge.setScene(run.scene);
     judge.resize(kSize);
     ReferenceStore store(ReferenceMaker("", "", "", ""));
-    Truths truths(experiment, plan);
+    Truths truths(experiment, run.plan);
     truths.make(judge, store, {0, 4}, [](int) {});
 
     Watched watched("tiny");

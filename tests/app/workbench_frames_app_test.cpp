@@ -1,8 +1,8 @@
 // The workbench without a window: frames, panes, loops, passes and frozen moments, driven by keys.
 
 #include "app/measure/live_response.h"
+#include "app/measure/truth.h"
 #include "app/scenario/experiment.h"
-#include "app/scenario/run_plan.h"
 #include "app/workbench/pointer.h"
 #include "renderer/image/image_io.h"
 #include "workbench_bench.h"
@@ -158,9 +158,9 @@ TEST_CASE("an experiment in the window shows the frames that it measures, bit fo
     CHECK(bench.state.panes.layout == PaneLayout::TwoUp);
     chooseLayout(bench.state.panes, PaneLayout::Single); // alone, as it is measured
     const Experiment experiment = loadExperiment(file);
-    const RunPlan plan = planOf(experiment);
+    const StagedRun run = stagedRun(experiment);
     Renderer judge(testShaders(), glInfo(testContext()));
-    judge.setScene(plan.scene);
+    judge.setScene(run.scene);
     judge.resize(kSize);
     bench.state.time.resetWanted = true;
     bench.workbench.open(file); // from the start
@@ -168,14 +168,7 @@ TEST_CASE("an experiment in the window shows the frames that it measures, bit fo
     bench.state.panes.all[0].settings.denoiser.temporal.alpha = 0.2f;
     for (int frame = 0; frame < 9; ++frame) {
         bench.frames(1);
-        const Moment& moment = plan.moments[momentAt(plan.moments, frame)];
-        const double seconds = experiment.seconds(frame);
-        judge.render({.camera = cameraAt(plan.scene, poseAt(plan.scene, seconds)),
-                      .seconds = seconds,
-                      .frame = std::uint32_t(frame),
-                      .seed = 5,
-                      .lights = moment.lights},
-                     settingsOf(Filter::Asvgf));
+        judge.render(inputAt(experiment, run.plan, frame), settingsOf(Filter::Asvgf));
         CAPTURE(frame);
         CHECK(differingPixels(bench.picture(0),
                               judge.targets().filters[0].display.read<glm::u8vec4>()) == 0);

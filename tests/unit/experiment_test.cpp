@@ -278,31 +278,32 @@ TEST_CASE("the lag experiments change one light, in the middle, and nothing else
          {"light-off", "light-on", "light-dim", "fill-light", "light-color"}) {
         CAPTURE(name);
         const Experiment e = loadExperiment(name);
-        const RunPlan plan = planOf(e);
-        REQUIRE(plan.moments.size() == 2);
+        const RunPlan plan = stagedRun(e).plan;
+        REQUIRE(plan.intervals.size() == 2);
         REQUIRE(plan.events.size() == 1);
-        CHECK(plan.moments[1].isStep());
-        CHECK(plan.moments[1].first == e.frames() / 2);
-        for (const Moment& moment : plan.moments) {
-            CHECK(moment.lights[1].on == (name == "fill-light" || name == "light-color"));
-            CHECK(moment.frames() >= 2 * e.settledWindow);
+        CHECK(plan.intervals[1].isStep());
+        CHECK(plan.intervals[1].first == e.frames() / 2);
+        for (const Interval& interval : plan.intervals) {
+            CHECK(interval.start.lights[1].on == (name == "fill-light" || name == "light-color"));
+            CHECK(interval.frames() >= 2 * e.settledWindow);
         }
-        CHECK(plan.moments[0].lights[0].on == (name != "light-on"));
-        CHECK(plan.moments[1].lights[0].on == (name != "light-off" && name != "fill-light"));
+        CHECK(plan.intervals[0].start.lights[0].on == (name != "light-on"));
+        CHECK(plan.intervals[1].start.lights[0].on ==
+              (name != "light-off" && name != "fill-light"));
         CHECK(e.signal == (name.ends_with("color") || name.starts_with("fill") ? Signal::Both
                                                                                : Signal::Shadows));
         // Settled values are taken while there is light.
         CHECK(plan.settled.end == (name == "light-on" ? e.frames() : e.frames() / 2));
     }
-    CHECK(planOf(loadExperiment("static")).moments.size() == 1);
+    CHECK(stagedRun(loadExperiment("static")).plan.intervals.size() == 1);
 }
 
 TEST_CASE("the color experiment changes the key light's color and not its luminance") {
-    const RunPlan plan = planOf(loadExperiment("light-color"));
-    const Instance& lamp = plan.scene.instances[plan.scene.lights[0].instances[0]];
-    const glm::vec3 emission = plan.scene.materials[lamp.material].emission;
-    const glm::vec3 before = emission * plan.moments[0].lights[0].scale();
-    const glm::vec3 after = emission * plan.moments[1].lights[0].scale();
+    const StagedRun run = stagedRun(loadExperiment("light-color"));
+    const Instance& lamp = run.scene.instances[run.scene.lights[0].instances[0]];
+    const glm::vec3 emission = run.scene.materials[lamp.material].emission;
+    const glm::vec3 before = emission * run.plan.intervals[0].start.lights[0].scale();
+    const glm::vec3 after = emission * run.plan.intervals[1].start.lights[0].scale();
     CHECK(luminance(after) == doctest::Approx(luminance(before)).epsilon(1e-5));
     CHECK(glm::length(after - before) > 0.5f * glm::length(before));
 }
@@ -311,7 +312,7 @@ TEST_CASE("what moves in the suite stands still before and long enough after") {
     for (const std::string name : {"light-move", "object-move", "camera-pan", "camera-cut"}) {
         CAPTURE(name);
         const Experiment e = loadExperiment(name);
-        const RunPlan plan = planOf(e);
+        const RunPlan plan = stagedRun(e).plan;
         REQUIRE(plan.events.size() == 1);
         const RunEvent& event = plan.events[0];
         CHECK(event.kind == RunEvent::Kind::Motion);
@@ -319,10 +320,10 @@ TEST_CASE("what moves in the suite stands still before and long enough after") {
         CHECK(plan.settled.frames() == e.settledWindow);
         CHECK(event.end == e.frames());
         CHECK(event.end - event.change.end > e.settledWindow);
-        const Moment& moving = plan.moments[1];
-        CHECK_FALSE(moving.lightsChanged);
-        CHECK(moving.cameraMoved == name.starts_with("camera"));
-        CHECK(moving.worldMoved == name.ends_with("-move"));
+        const Interval& moving = plan.intervals[1];
+        CHECK_FALSE(moving.changed.lights);
+        CHECK(moving.changed.camera == name.starts_with("camera"));
+        CHECK(moving.changed.world == name.ends_with("-move"));
     }
 }
 

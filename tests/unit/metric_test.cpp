@@ -26,7 +26,9 @@ Json summaryOfAll() {
         for (const Metric& metric : metrics())
             if (metric.isOfFrames())
                 table.add("asvgf", frame, metric.key, frame < 10 ? 0.25 : 1.0);
-    return summaryOf(experiment, outlineOf(planOf(experiment)), table).at("variants").at("asvgf");
+    return summaryOf(experiment, outlineOf(stagedRun(experiment).plan), table)
+        .at("variants")
+        .at("asvgf");
 }
 
 } // namespace
@@ -109,7 +111,7 @@ TEST_CASE("an outline that is written and read again is the same") {
         "timeline": [{"frame": 10, "light": "key", "on": false},
         {"frame": 20, "until": 24, "node": "key", "by": [0.1, 0, 0]}]})",
         "made.json");
-    const RunOutline outline = outlineOf(planOf(experiment));
+    const RunOutline outline = outlineOf(stagedRun(experiment).plan);
     REQUIRE(outline.events.size() == 2);
     CHECK(outline.changes == std::vector<int>{10, 20, 21, 22, 23});
     Json json;

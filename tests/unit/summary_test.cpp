@@ -42,7 +42,9 @@ MetricsTable lagging(double start, double end) {
 
 Json summaryOfMade(const std::string& timeline, const MetricsTable& table) {
     const Experiment experiment = experimentOf(timeline);
-    return summaryOf(experiment, outlineOf(planOf(experiment)), table).at("variants").at("svgf");
+    return summaryOf(experiment, outlineOf(stagedRun(experiment).plan), table)
+        .at("variants")
+        .at("svgf");
 }
 
 } // namespace

@@ -36,7 +36,7 @@ Take restingTake(const Scene& scene, int frames, double rate = 60.0) {
 }
 
 /// From that frame on; marked as the window does.
-void change(Take& take, std::size_t frame, const std::function<void(FrameMoment&)>& how,
+void change(Take& take, std::size_t frame, const std::function<void(SceneFrame&)>& how,
             const std::string& mark, bool step) {
     for (std::size_t i = frame; i < take.frames.size(); ++i)
         how(take.frames[i]);
@@ -50,7 +50,7 @@ Take throughText(const Take& take, const std::string& sceneName, int leadIn = 0)
     CHECK(experiment.size == glm::ivec2(61, 37));
     CHECK(experiment.seed == 7);
     CHECK(experiment.variants.size() == 2);
-    return takeOf(experiment, planOf(experiment));
+    return takeOf(experiment, stagedRun(experiment));
 }
 
 /// The largest difference of a place (metres) or of an axis.
@@ -68,7 +68,7 @@ void checkSame(const Take& take, const Take& expected, bool marks = true) {
     REQUIRE(take.frames.size() == expected.frames.size());
     for (std::size_t i = 0; i < take.frames.size(); ++i) {
         CAPTURE(i);
-        const FrameMoment &was = expected.frames[i], &is = take.frames[i];
+        const SceneFrame &was = expected.frames[i], &is = take.frames[i];
         CHECK(is.seconds == was.seconds);
         CHECK(is.lights == was.lights);
         CHECK(is.step == was.step);
@@ -103,12 +103,12 @@ TEST_CASE("a take of an experiment has the lights, times, steps and names of its
                      {"frame": 20, "light": "fill", "power": 2},
                      {"frame": 30, "until": 35, "camera": {"eye": [0, 0.3, 1], "target": [0, 0, 0]}}]})",
                                                   "both.json");
-    const Take take = takeOf(experiment, planOf(experiment));
+    const Take take = takeOf(experiment, stagedRun(experiment));
     CHECK(take.name == "both");
     CHECK(take.firstFrame == 0);
     REQUIRE(take.frames.size() == 40);
     for (std::size_t i = 0; i < 40; ++i) {
-        const FrameMoment& frame = take.frames[i];
+        const SceneFrame& frame = take.frames[i];
         CHECK(frame.seconds == double(i) / 24.0);
         CHECK(frame.lights[0].on == (i < 10 || i >= 20));
         CHECK(frame.lights[1].power == (i < 20 ? 0.5f : 2.0f));
@@ -128,22 +128,22 @@ TEST_CASE("light changes of a take become an experiment that gives the same take
         const Scene scene = loadScene(name);
         const bool moves = duration(scene) > 0.0; // then a change is not one of light alone
         Take take = restingTake(scene, 60);
-        for (FrameMoment& moment : take.frames)
-            moment.lights[0].power = 0.7f; // how it starts
+        for (SceneFrame& given : take.frames)
+            given.lights[0].power = 0.7f; // how it starts
         change(
-            take, 12, [](FrameMoment& m) { m.lights[0].on = false; }, "key off", !moves);
+            take, 12, [](SceneFrame& m) { m.lights[0].on = false; }, "key off", !moves);
         change(
-            take, 13, [](FrameMoment& m) { m.lights[0].on = true; }, "key on", !moves);
+            take, 13, [](SceneFrame& m) { m.lights[0].on = true; }, "key on", !moves);
         change(
             take, 30,
-            [](FrameMoment& m) {
+            [](SceneFrame& m) {
                 m.lights[0].tint = {1.0f, 0.1f, 1.0f / 3.0f};
             },
             "key tinted", !moves);
         if (scene.lights.size() > 1)
             change(
                 take, 41,
-                [](FrameMoment& m) {
+                [](SceneFrame& m) {
                     m.lights[0].power = 0.0f;
                     m.lights[1] = {.on = false, .power = 123.456f, .tint = {0.2f, 0.3f, 0.4f}};
                 },
@@ -160,14 +160,14 @@ TEST_CASE("a cut of the camera and a flight survive as an experiment") {
         Take take = restingTake(scene, 50, 24.0);
         change(
             take, 5,
-            [&](FrameMoment& m) {
+            [&](SceneFrame& m) {
                 m.camera = lookAt({0.4f, 0.9f, 1.7f}, {0, 0.3f, 0}, lens);
             },
             "camera cut", false);
         for (int i = 20; i < 40; ++i) // curved and ever faster, almost to the zenith
             change(
                 take, std::size_t(i),
-                [&](FrameMoment& m) {
+                [&](SceneFrame& m) {
                     const float t = float(i - 19) / 20.0f;
                     m.camera =
                         lookAt({0.4f + t * t, 0.9f, 1.7f - t},
@@ -178,7 +178,7 @@ TEST_CASE("a cut of the camera and a flight survive as an experiment") {
             take.frames[std::size_t(i)].marks.clear();
         take.frames[20].marks = {"camera moves"};
         change(
-            take, 30, [](FrameMoment& m) { m.lights[0].on = false; }, "key off", false);
+            take, 30, [](SceneFrame& m) { m.lights[0].on = false; }, "key off", false);
 
         const Take again = throughText(take, name);
         checkSame(again, take);
@@ -191,8 +191,8 @@ TEST_CASE("a cut of the camera and a flight survive as an experiment") {
 TEST_CASE("a take that begins elsewhere than the scene's camera is set up so") {
     const Scene scene = loadScene("tiny");
     Take take = restingTake(scene, 8);
-    for (FrameMoment& moment : take.frames)
-        moment.camera = lookAt({2.0f, 1.0f, 1.0f}, {0, 0, 0}, scene.cameras[0].lens);
+    for (SceneFrame& given : take.frames)
+        given.camera = lookAt({2.0f, 1.0f, 1.0f}, {0, 0, 0}, scene.cameras[0].lens);
     checkSame(throughText(take, "tiny"), take);
 
     take.frames[1].camera = lookAt({2.0f, 1.0f, 0.5f}, {0, 0, 0}, scene.cameras[0].lens);
@@ -203,15 +203,15 @@ TEST_CASE("a take that begins elsewhere than the scene's camera is set up so") {
 TEST_CASE("what the window records in a scene that moves is an experiment from time 0 on") {
     const Scene scene = loadScene("moving");
     Transport t;
-    FrameMoment live{.camera = cameraAt(scene, poseAt(scene, 0.0)),
-                     .lights = std::vector<LightState>(1)};
+    SceneFrame live{.camera = cameraAt(scene, poseAt(scene, 0.0)),
+                    .lights = std::vector<LightState>(1)};
     for (int i = 0; i < 70; ++i) {
         if (i == 30)
             markIn(t);
         live.lights[0].on = i < 50;
         live.marks = i == 50 ? std::vector<std::string>{"key off"} : std::vector<std::string>{};
         live.step = i == 50;
-        nextMoment(t, live);
+        nextFrame(t, live);
         frameRendered(t, 0.0);
     }
     markOut(t);
@@ -225,8 +225,8 @@ TEST_CASE("what the window records in a scene that moves is an experiment from t
     for (std::size_t i = 0; i < 30; ++i)
         CHECK(again.frames[i].lights == t.recorded->frames[0].lights);
     again.frames.erase(again.frames.begin(), again.frames.begin() + 30);
-    for (FrameMoment& moment : again.frames)
-        moment.step = moment.seconds == 50.0 / 60.0; // the box moves in an experiment, too
+    for (SceneFrame& given : again.frames)
+        given.step = given.seconds == 50.0 / 60.0; // the box moves in an experiment, too
     checkSame(again, *t.recorded);
 }
 
@@ -235,7 +235,7 @@ TEST_CASE("histories can be given frames to grow in before a take") {
     Take take = restingTake(scene, 10);
     take.frames[0].lights[1].on = false;
     change(
-        take, 3, [](FrameMoment& m) { m.lights[0].on = false; }, "key off", true);
+        take, 3, [](SceneFrame& m) { m.lights[0].on = false; }, "key off", true);
     take.firstFrame = 500;
     const Take again = throughText(take, "cornell", 16);
     REQUIRE(again.frames.size() == 26);
@@ -266,8 +266,8 @@ TEST_CASE("time makes no difference where nothing moves, and may stand where the
     CHECK(experimentOf(uneven, tiny, baseFor("tiny")).rate == 60.0);
 
     Take standing = restingTake(moving, 10);
-    for (FrameMoment& moment : standing.frames)
-        moment.seconds = 0.0;
+    for (SceneFrame& given : standing.frames)
+        given.seconds = 0.0;
     CHECK_FALSE(experimentOf(standing, moving, baseFor("moving"), 5).animated);
     CHECK(experimentOf(standing, moving, baseFor("moving"), 5).frames() == 15);
 }
@@ -301,20 +301,20 @@ TEST_CASE("what an experiment cannot say is refused by name") {
                    "frame 109: scene time does not go on evenly"));
     CHECK(contains(refusedIn(moving, "moving",
                              [](Take& take) {
-                                 for (FrameMoment& moment : take.frames)
-                                     moment.seconds = 1.25;
+                                 for (SceneFrame& given : take.frames)
+                                     given.seconds = 1.25;
                              }),
                    "stands still at 1.25 s"));
     CHECK(contains(refusedIn(moving, "moving",
                              [](Take& take) {
-                                 for (FrameMoment& moment : take.frames)
-                                     moment.seconds += 0.005;
+                                 for (SceneFrame& given : take.frames)
+                                     given.seconds += 0.005;
                              }),
                    "begins at 0.005 s"));
     CHECK(contains(refusedIn(moving, "moving",
                              [](Take& take) {
-                                 for (FrameMoment& moment : take.frames)
-                                     moment.seconds += 2000.0;
+                                 for (SceneFrame& given : take.frames)
+                                     given.seconds += 2000.0;
                              }),
                    "begins at 2000 s"));
     CHECK(contains(refusedIn(tiny, "tiny", [](Take& take) { take.frames[0].step = true; }),
@@ -341,8 +341,8 @@ TEST_CASE("what an experiment cannot say is refused by name") {
          .values = {glm::vec4(flown.nodes[cameraNode].translation, 0.0f), glm::vec4(0.0f)}});
     CHECK(contains(refusedIn(flown, "tiny", fly), "animated by the scene itself"));
     Take asFlown = restingTake(flown, 20);
-    for (FrameMoment& moment : asFlown.frames)
-        moment.camera = cameraAt(flown, poseAt(flown, moment.seconds));
+    for (SceneFrame& given : asFlown.frames)
+        given.camera = cameraAt(flown, poseAt(flown, given.seconds));
     CHECK(experimentOf(asFlown, flown, baseFor("tiny")).timeline.events().empty());
 
     Experiment twice = baseFor("tiny");
@@ -363,7 +363,7 @@ TEST_CASE("every experiment that comes with the program and moves no node surviv
             }))
             continue;
         CAPTURE(info.name);
-        const Take take = takeOf(experiment, planOf(experiment));
+        const Take take = takeOf(experiment, stagedRun(experiment));
         const Take again = throughText(take, experiment.scene);
         ++tried;
         REQUIRE(again.frames.size() == take.frames.size());

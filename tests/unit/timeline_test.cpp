@@ -48,11 +48,12 @@ TEST_CASE("without events every light is as the scene has it") {
     const Timeline timeline(10, {});
     CHECK(lightAt(timeline, 0, "key") == LightState{});
     CHECK(lightAt(timeline, 9, "fill") == LightState{});
-    const std::vector<Moment> moments = momentsOf(timeline, makeProceduralScene("rooms"), 60.0);
-    REQUIRE(moments.size() == 1);
-    CHECK(moments[0].first == 0);
-    CHECK(moments[0].end == 10);
-    CHECK(moments[0].lights == std::vector<LightState>(2));
+    const std::vector<Interval> intervals =
+        intervalsOf(timeline, makeProceduralScene("rooms"), 60.0);
+    REQUIRE(intervals.size() == 1);
+    CHECK(intervals[0].first == 0);
+    CHECK(intervals[0].end == 10);
+    CHECK(intervals[0].start.lights == std::vector<LightState>(2));
     CHECK_FALSE(timeline.moves());
 }
 
@@ -84,36 +85,36 @@ TEST_CASE("all lights can be set at once, before and after one is set apart") {
     CHECK_FALSE(lightAt(timeline, 5, "fill").on);
 }
 
-TEST_CASE("moments end where something changes and nowhere else") {
+TEST_CASE("intervals end where something changes and nowhere else") {
     const Timeline timeline(60, {turned(0, "fill", false),  // how it starts
                                  turned(10, "fill", false), // so it was already
                                  turned(20, "key", false),  // a change,
                                  turned(20, "key", true),   // taken back in the same frame
                                  turned(30, "key", false),  //
                                  powered(30, "fill", 2.0f), // two at once
-                                 turned(59, "key", true)}); // the last frame is a moment, too
+                                 turned(59, "key", true)}); // the last frame is an interval, too
     const Scene scene = makeProceduralScene("cornell");     // key, fill
-    const std::vector<Moment> moments = momentsOf(timeline, scene, 60.0);
-    REQUIRE(moments.size() == 3);
-    CHECK(moments[0].first == 0);
-    CHECK(moments[0].end == 30);
-    CHECK_FALSE(moments[0].isStep());
-    CHECK(moments[1].first == 30);
-    CHECK(moments[1].frames() == 29);
-    CHECK(moments[1].isStep());
-    CHECK(moments[2].first == 59);
-    CHECK(moments[2].end == 60);
-    CHECK_FALSE(moments[0].lights[1].on);
-    CHECK(moments[1].lights[1].power == 2.0f);
+    const std::vector<Interval> intervals = intervalsOf(timeline, scene, 60.0);
+    REQUIRE(intervals.size() == 3);
+    CHECK(intervals[0].first == 0);
+    CHECK(intervals[0].end == 30);
+    CHECK_FALSE(intervals[0].isStep());
+    CHECK(intervals[1].first == 30);
+    CHECK(intervals[1].frames() == 29);
+    CHECK(intervals[1].isStep());
+    CHECK(intervals[2].first == 59);
+    CHECK(intervals[2].end == 60);
+    CHECK_FALSE(intervals[0].start.lights[1].on);
+    CHECK(intervals[1].start.lights[1].power == 2.0f);
     for (const int frame : {0, 29, 30, 58, 59}) {
-        const Moment& moment = moments[momentAt(moments, frame)];
-        CHECK(moment.first <= frame);
-        CHECK(frame < moment.end);
+        const Interval& interval = intervals[intervalAt(intervals, frame)];
+        CHECK(interval.first <= frame);
+        CHECK(frame < interval.end);
     }
 }
 
 TEST_CASE(
-    "the moments of any timeline cover it, agree with its frames, and are as long as can be") {
+    "the intervals of any timeline cover it, agree with its frames, and are as long as can be") {
     std::mt19937 random(3);
     const Scene scene = makeProceduralScene("cornell");
     for (int round = 0; round < 50; ++round) {
@@ -122,17 +123,17 @@ TEST_CASE(
         while ((frame += int(random() % 5)) < 40)
             events.push_back(turned(frame, random() % 3 ? "key" : "*", random() % 2));
         const Timeline timeline(40, events);
-        const std::vector<Moment> moments = momentsOf(timeline, scene, 30.0);
+        const std::vector<Interval> intervals = intervalsOf(timeline, scene, 30.0);
         int next = 0;
-        for (std::size_t i = 0; i < moments.size(); ++i) {
-            CHECK(moments[i].first == next);
-            CHECK(moments[i].frames() > 0);
-            for (next = moments[i].first; next < moments[i].end; ++next) {
-                CHECK(lightAt(timeline, next, "key") == moments[i].lights[0]);
-                CHECK(lightAt(timeline, next, "fill") == moments[i].lights[1]);
+        for (std::size_t i = 0; i < intervals.size(); ++i) {
+            CHECK(intervals[i].first == next);
+            CHECK(intervals[i].frames() > 0);
+            for (next = intervals[i].first; next < intervals[i].end; ++next) {
+                CHECK(lightAt(timeline, next, "key") == intervals[i].start.lights[0]);
+                CHECK(lightAt(timeline, next, "fill") == intervals[i].start.lights[1]);
             }
             if (i > 0)
-                CHECK(moments[i].lights != moments[i - 1].lights);
+                CHECK(intervals[i].start.lights != intervals[i - 1].start.lights);
         }
         CHECK(next == 40);
     }
@@ -162,14 +163,14 @@ TEST_CASE(
     CHECK(near(at(20), {2.0f, 0.0f, 1.0f}));
     CHECK(at(20) == at(29));
 
-    const std::vector<Moment> moments = momentsOf(timeline, scene, kRate);
-    REQUIRE(moments.size() == 6); // [0, 10), 10, 11, 12, [13, 20), [20, 30)
-    CHECK(moments[1].first == 10);
-    CHECK(moments[4].first == 13);
-    CHECK(moments[4].end == 20);
-    CHECK(moments[5].worldMoved);
-    CHECK_FALSE(moments[5].cameraMoved);
-    CHECK_FALSE(moments[5].isStep());
+    const std::vector<Interval> intervals = intervalsOf(timeline, scene, kRate);
+    REQUIRE(intervals.size() == 6); // [0, 10), 10, 11, 12, [13, 20), [20, 30)
+    CHECK(intervals[1].first == 10);
+    CHECK(intervals[4].first == 13);
+    CHECK(intervals[4].end == 20);
+    CHECK(intervals[5].changed.world);
+    CHECK_FALSE(intervals[5].changed.camera);
+    CHECK_FALSE(intervals[5].isStep());
 }
 
 TEST_CASE("the camera arrives at the view that it was sent to, and the scene stands still") {
@@ -179,19 +180,19 @@ TEST_CASE("the camera arrives at the view that it was sent to, and the scene sta
     const Camera view = cameraAt(scene, poseAt(scene, 8 / 60.0)), wanted = lookAt(eye, target);
     CHECK(glm::length(view.position - wanted.position) < 1e-5f);
     CHECK(glm::length(view.forward() - wanted.forward()) < 1e-5f);
-    const std::vector<Moment> moments = momentsOf(timeline, scene, 60.0);
-    REQUIRE(moments.size() == 5);
-    for (std::size_t i = 1; i < moments.size(); ++i) {
-        CHECK(moments[i].cameraMoved);
-        CHECK_FALSE(moments[i].worldMoved);
+    const std::vector<Interval> intervals = intervalsOf(timeline, scene, 60.0);
+    REQUIRE(intervals.size() == 5);
+    for (std::size_t i = 1; i < intervals.size(); ++i) {
+        CHECK(intervals[i].changed.camera);
+        CHECK_FALSE(intervals[i].changed.world);
     }
 }
 
 TEST_CASE("the scene's own animation stands still unless it is asked for") {
     const Timeline timeline(4, {});
     const Scene scene = makeProceduralScene("moving");
-    CHECK(momentsOf(timeline, timeline.staged(scene, 60.0, false, "test"), 60.0).size() == 1);
-    CHECK(momentsOf(timeline, timeline.staged(scene, 60.0, true, "test"), 60.0).size() == 4);
+    CHECK(intervalsOf(timeline, timeline.staged(scene, 60.0, false, "test"), 60.0).size() == 1);
+    CHECK(intervalsOf(timeline, timeline.staged(scene, 60.0, true, "test"), 60.0).size() == 4);
 }
 
 TEST_CASE("a light or a node that the scene does not have is named, with the nearest it has") {

@@ -171,7 +171,7 @@ TEST_CASE("entering a stop undoes what a person or the stop before has changed, 
             const ViewState fresh = entered(stop);
             ViewState state = entered(before);
             for (int frame = 0; frame < before.repeats->every + 3; ++frame) {
-                nextMoment(state.time, liveMoment(state));
+                nextFrame(state.time, liveFrame(state));
                 frameRendered(state.time, 0.1);
             }
             state.lights.back() = {.on = false, .power = 0.5f, .tint = {1.0f, 0.5f, 0.25f}};
@@ -229,7 +229,7 @@ TEST_CASE("at a stop the same happens again and again, first after so many frame
         ViewState state = entered(stop);
         std::vector<int> happened;
         for (int frame = 0; frame < 3 * every; ++frame) {
-            const FrameMoment moment = nextMoment(state.time, liveMoment(state));
+            const SceneFrame moment = nextFrame(state.time, liveFrame(state));
             if (!moment.marks.empty())
                 happened.push_back(frame);
             if (!stop.repeats->light.empty() && frame > 0)
@@ -244,7 +244,7 @@ TEST_CASE("what a person has recorded survives a stop, and what is being recorde
     const TourStop& stop = tourStops().front();
     ViewState state = entered(stop);
     const auto render = [&] {
-        nextMoment(state.time, liveMoment(state));
+        nextFrame(state.time, liveFrame(state));
         frameRendered(state.time, 0.1);
     };
     markIn(state.time);

@@ -16,14 +16,14 @@ namespace afterglow::test {
 struct Program {
     struct Rendered {
         std::uint32_t frame;
-        FrameMoment moment;
+        SceneFrame given;
         std::string picture;
 
         bool operator==(const Rendered&) const = default;
     };
 
     Transport t;
-    FrameMoment live{.lights = std::vector<LightState>(2)};
+    SceneFrame live{.lights = std::vector<LightState>(2)};
     std::string histories = "none", checkpoint = "none";
     int resets = 0, restores = 0, checkpoints = 0;
     std::vector<Rendered> rendered;
@@ -46,16 +46,16 @@ struct Program {
         }
         if (repeatIsDue(t))
             toggle(0, "key");
-        const FrameMoment moment = nextMoment(t, live);
+        const SceneFrame given = nextFrame(t, live);
         live.marks.clear();
         live.step = false;
         std::string input = histories + "|" + std::to_string(t.frame) + "|" +
-                            std::to_string(moment.seconds) + "|" +
-                            std::to_string(moment.camera.position.x);
-        for (const LightState& light : moment.lights)
+                            std::to_string(given.seconds) + "|" +
+                            std::to_string(given.camera.position.x);
+        for (const LightState& light : given.lights)
             input += light.on ? "1" : "0";
         histories = std::to_string(std::hash<std::string>{}(input));
-        rendered.push_back({t.frame, moment, histories});
+        rendered.push_back({t.frame, given, histories});
         frameRendered(t, seconds);
         return true;
     }
@@ -99,14 +99,14 @@ struct Program {
 inline Take walkOf(int frames, std::uint32_t first = 0) {
     Take take{.name = "walk", .firstFrame = first};
     for (int i = 0; i < frames; ++i) {
-        FrameMoment moment{.seconds = 0.25 * (i + 1), .lights = std::vector<LightState>(2)};
-        moment.camera.position.x = 10.0f + float(i);
-        moment.lights[1].on = i < 2;
+        SceneFrame given{.seconds = 0.25 * (i + 1), .lights = std::vector<LightState>(2)};
+        given.camera.position.x = 10.0f + float(i);
+        given.lights[1].on = i < 2;
         if (i == 2) {
-            moment.marks = {"fill off"};
-            moment.step = true;
+            given.marks = {"fill off"};
+            given.step = true;
         }
-        take.frames.push_back(moment);
+        take.frames.push_back(given);
     }
     return take;
 }

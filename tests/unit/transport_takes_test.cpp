@@ -26,7 +26,7 @@ TEST_CASE("between the in and the out point every round has the same bits as the
     program.rounds(35);
     CHECK(program.restores == 4);
     const auto recorded = program.between(5, 15);
-    CHECK(recorded[4].moment.marks == std::vector<std::string>{"key off"});
+    CHECK(recorded[4].given.marks == std::vector<std::string>{"key off"});
     for (std::size_t first = 15; first < 45; first += 10)
         CHECK(program.between(first, first + 10) == recorded);
     CHECK(program.between(45, 50) == program.between(5, 10)); // and so on
@@ -148,7 +148,7 @@ TEST_CASE("without its checkpoint a record is played without histories, each rou
     CHECK(program.restores == 1);
     CHECK(program.resets == 2);
     CHECK(program.between(first, first + 10) == program.between(first + 10, first + 20));
-    CHECK(program.rendered[first].moment == program.rendered[5].moment);
+    CHECK(program.rendered[first].given == program.rendered[5].given);
     CHECK(program.rendered[first].picture != program.rendered[5].picture);
 
     program.stop();
@@ -182,7 +182,7 @@ TEST_CASE("a take is played from nothing, and again from nothing if it loops") {
     CHECK(program.resets == 3);
     for (std::size_t i = 0; i < 5; ++i) {
         CHECK(program.rendered[7 + i].frame == 40 + i);
-        CHECK(program.rendered[7 + i].moment == take.frames[i]);
+        CHECK(program.rendered[7 + i].given == take.frames[i]);
     }
     CHECK(program.between(12, 17) == program.between(7, 12));
     CHECK(program.between(17, 22) == program.between(7, 12));
@@ -204,7 +204,7 @@ TEST_CASE("a take that does not loop pauses at its end, and is played again from
     CHECK_FALSE(program.round(100.0));
     program.t.paused = false; // there still is no frame to render
     CHECK_FALSE(program.round(100.0));
-    CHECK_THROWS_AS(nextMoment(program.t, {}), std::logic_error);
+    CHECK_THROWS_AS(nextFrame(program.t, {}), std::logic_error);
 
     togglePause(program.t);
     CHECK_FALSE(isFinished(program.t));
@@ -218,7 +218,7 @@ TEST_CASE("a take that does not loop pauses at its end, and is played again from
     CHECK_FALSE(program.live.lights[1].on);
     program.rounds(1);
     CHECK(program.rendered.back().frame == 4);
-    CHECK(program.rendered.back().moment.seconds == doctest::Approx(1.0 + 1.0 / 60.0));
+    CHECK(program.rendered.back().given.seconds == doctest::Approx(1.0 + 1.0 / 60.0));
 }
 
 TEST_CASE("a take that is left before its first frame leaves no trace") {
@@ -304,7 +304,7 @@ TEST_CASE("a record that is forgotten ends by itself") {
     markIn(t);
     for (std::size_t i = 0; i < kMostRecorded; ++i) {
         CHECK(t.recording);
-        nextMoment(t, {});
+        nextFrame(t, {});
         frameRendered(t, 0.0);
     }
     CHECK_FALSE(t.recording);

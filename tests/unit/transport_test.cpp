@@ -18,12 +18,12 @@ TEST_CASE("live play hands on what the person does, with the transport's frame a
     const auto& rendered = program.rendered;
     for (std::size_t i = 0; i < 4; ++i) {
         CHECK(rendered[i].frame == i);
-        CHECK(rendered[i].moment.seconds == double(i) / 60.0);
-        CHECK(rendered[i].moment.lights[1].on == (i < 2));
-        CHECK(rendered[i].moment.camera.position.x == (i < 2 ? 0.0f : 2.0f));
-        CHECK(rendered[i].moment.step == (i == 2));
+        CHECK(rendered[i].given.seconds == double(i) / 60.0);
+        CHECK(rendered[i].given.lights[1].on == (i < 2));
+        CHECK(rendered[i].given.camera.position.x == (i < 2 ? 0.0f : 2.0f));
+        CHECK(rendered[i].given.step == (i == 2));
     }
-    CHECK(rendered[2].moment.marks == std::vector<std::string>{"fill off"});
+    CHECK(rendered[2].given.marks == std::vector<std::string>{"fill off"});
     CHECK(program.resets + program.restores + program.checkpoints == 0);
 }
 
@@ -32,7 +32,7 @@ TEST_CASE("the time of a fixed frame is its number over the rate, to the last bi
     for (int frame = 0; frame < 2000; ++frame)
         program.round();
     for (int frame = 0; frame < 2000; ++frame)
-        CHECK(program.rendered[std::size_t(frame)].moment.seconds == frame / 60.0);
+        CHECK(program.rendered[std::size_t(frame)].given.seconds == frame / 60.0);
 
     program.t.seconds = 0.505; // not on a sixtieth
     program.rounds(2);
@@ -42,7 +42,7 @@ TEST_CASE("the time of a fixed frame is its number over the rate, to the last bi
 TEST_CASE("scene time runs like the clock, but a stall does not make it jump; or it stands") {
     Transport t{.timeStep = TimeStep::WallClock};
     const auto render = [&](double wallSeconds) {
-        nextMoment(t, {});
+        nextFrame(t, {});
         frameRendered(t, wallSeconds);
         return t.seconds;
     };
@@ -107,7 +107,7 @@ TEST_CASE("in slow motion a frame waits for its time, and a step by hand does no
     }
     CHECK(limits == std::vector<int>{30, 10, 5, 2, 1, 1});
     CHECK(wantsFrame(t, 0.0)); // nothing is to be seen yet
-    nextMoment(t, {});
+    nextFrame(t, {});
     frameRendered(t, 1.0);
     CHECK_FALSE(wantsFrame(t, 0.9));
     CHECK(wantsFrame(t, 1.0));
@@ -117,7 +117,7 @@ TEST_CASE("in slow motion a frame waits for its time, and a step by hand does no
     stepOnce(t);
     CHECK(wantsFrame(t, 0.0));
 
-    t = {.frameLimit = 30, .last = FrameMoment{}};
+    t = {.frameLimit = 30, .last = SceneFrame{}};
     CHECK(wantsFrame(t, 2.0 / 60.0 - 0.001)); // the second turn of a display at 60 Hz, a bit early
     CHECK_FALSE(wantsFrame(t, 1.0 / 60.0));
 }
@@ -149,7 +149,7 @@ TEST_CASE(
     program.rounds(10); // 3 .. 12
     std::vector<std::uint32_t> steps;
     for (const Program::Rendered& rendered : program.rendered)
-        if (rendered.moment.step)
+        if (rendered.given.step)
             steps.push_back(rendered.frame);
     CHECK(steps == std::vector<std::uint32_t>{3, 7, 11});
 
@@ -223,8 +223,8 @@ TEST_CASE("what the program must not do with a transport is refused") {
     Transport t;
     CHECK_THROWS_AS(frameRendered(t, 0.0), std::logic_error);
     CHECK_THROWS_AS(play(t, {}, true), std::logic_error);
-    nextMoment(t, {});
-    nextMoment(t, {}); // asking twice is fine
+    nextFrame(t, {});
+    nextFrame(t, {}); // asking twice is fine
     frameRendered(t, 0.0);
     CHECK(t.frame == 1);
 }

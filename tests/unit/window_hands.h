@@ -28,18 +28,18 @@ inline void press(ViewState& state, char key) {
 }
 
 /// A frame without its picture; what it was given.
-inline FrameMoment renderFrame(ViewState& state, double wallSeconds = kFixedStep) {
+inline SceneFrame renderFrame(ViewState& state, double wallSeconds = kFixedStep) {
     REQUIRE(wantsFrame(state.time, 1e3));
     state.time.resetWanted = state.time.restoreWanted = state.time.checkpointWanted = false;
-    FrameMoment moment;
+    SceneFrame given;
     if (state.time.playing) {
-        moment = nextMoment(state.time, {});
-        follow(state, moment);
+        given = nextFrame(state.time, {});
+        follow(state, given);
     } else {
-        moment = nextMoment(state.time, liveMoment(state));
+        given = nextFrame(state.time, liveFrame(state));
     }
     frameRendered(state.time, wallSeconds);
-    return moment;
+    return given;
 }
 inline void renderFrames(ViewState& state, int count) {
     for (int i = 0; i < count; ++i)

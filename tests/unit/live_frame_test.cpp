@@ -4,7 +4,7 @@
 
 using namespace afterglow;
 
-// What the person's hands make of the next frame: liveMoment() and what surrounds it.
+// What the person's hands make of the next frame: liveFrame() and what surrounds it.
 
 namespace {
 
@@ -20,12 +20,12 @@ ViewState running(std::string_view scene = "cornell") {
 Take takeOfTwo(const ViewState& state, std::size_t lights) {
     Take take{.name = "two", .firstFrame = 100};
     for (int i = 0; i < 2; ++i) {
-        FrameMoment moment{.seconds = i / 60.0, .camera = state.home};
-        moment.camera.position.x += 0.1f * float(i + 1);
-        moment.lights.resize(lights);
+        SceneFrame given{.seconds = i / 60.0, .camera = state.home};
+        given.camera.position.x += 0.1f * float(i + 1);
+        given.lights.resize(lights);
         if (lights > 0)
-            moment.lights[0].power = 0.25f * float(i + 1);
-        take.frames.push_back(moment);
+            given.lights[0].power = 0.25f * float(i + 1);
+        take.frames.push_back(given);
     }
     return take;
 }
@@ -35,11 +35,11 @@ Take takeOfTwo(const ViewState& state, std::size_t lights) {
 TEST_CASE("a frame in which nothing happens has no marks, the very first one included") {
     ViewState state = cornellState();
     for (int i = 0; i < 3; ++i) {
-        const FrameMoment moment = renderFrame(state);
-        CHECK(moment.marks.empty());
-        CHECK_FALSE(moment.step);
-        CHECK(moment.camera == state.home);
-        CHECK(moment.lights == state.lights);
+        const SceneFrame given = renderFrame(state);
+        CHECK(given.marks.empty());
+        CHECK_FALSE(given.step);
+        CHECK(given.camera == state.home);
+        CHECK(given.lights == state.lights);
     }
 }
 
@@ -49,10 +49,10 @@ TEST_CASE("a light that changes marks one frame, which is a step") {
                                        {{.key = keyOf('1'), .control = true}, "key tinted"}}) {
         ViewState state = running();
         press(state, stroke);
-        const FrameMoment moment = renderFrame(state);
-        CHECK(moment.marks == Texts{mark});
-        CHECK(moment.step);
-        CHECK(state.time.past.back().marks == moment.marks);
+        const SceneFrame given = renderFrame(state);
+        CHECK(given.marks == Texts{mark});
+        CHECK(given.step);
+        CHECK(state.time.past.back().marks == given.marks);
         CHECK(renderFrame(state).marks.empty());
     }
 }
@@ -61,12 +61,12 @@ TEST_CASE("several lights in one frame are one step, and one that is back is non
     ViewState state = running();
     press(state, '1');
     press(state, '2');
-    const FrameMoment both = renderFrame(state);
+    const SceneFrame both = renderFrame(state);
     CHECK(both.marks == Texts{"key off", "fill off"});
     CHECK(both.step);
     press(state, '1');
     press(state, '1');
-    const FrameMoment none = renderFrame(state);
+    const SceneFrame none = renderFrame(state);
     CHECK(none.marks.empty());
     CHECK_FALSE(none.step);
 }
@@ -77,17 +77,17 @@ TEST_CASE("a change of light is no step where the camera or the scene begins to 
         ViewState state = running("moving");
         press(state, stroke);
         press(state, '1');
-        const FrameMoment moment = renderFrame(state);
-        CHECK(moment.marks.size() == 2);
-        CHECK(moment.marks.back() == "key off");
-        CHECK_FALSE(moment.step);
+        const SceneFrame given = renderFrame(state);
+        CHECK(given.marks.size() == 2);
+        CHECK(given.marks.back() == "key off");
+        CHECK_FALSE(given.step);
     }
     ViewState state = running(); // one that flies is not marked
     state.camera.position.x += 0.01f;
     press(state, '1');
-    const FrameMoment moment = renderFrame(state);
-    CHECK(moment.marks == Texts{"key off"});
-    CHECK_FALSE(moment.step);
+    const SceneFrame given = renderFrame(state);
+    CHECK(given.marks == Texts{"key off"});
+    CHECK_FALSE(given.step);
     press(state, '1');
     CHECK(renderFrame(state).step);
 }
@@ -169,10 +169,10 @@ TEST_CASE("what repeats happens in the frames first, first + every, ... and in n
         for (int i = 0; i < 4 * every + 1; ++i) {
             const std::uint32_t frame = state.time.frame;
             const bool before = state.lights[1].on;
-            const FrameMoment moment = renderFrame(state);
+            const SceneFrame given = renderFrame(state);
             const bool due = (frame - first) % std::uint32_t(every) == 0;
-            CHECK(moment.step == due);
-            CHECK((moment.lights[1].on != before) == due);
+            CHECK(given.step == due);
+            CHECK((given.lights[1].on != before) == due);
         }
         press(state, 'Y');
         for (int i = 0; i < 2 * every; ++i)
@@ -271,9 +271,9 @@ TEST_CASE("a take has its own camera and lights, and who leaves it goes on with 
         press(state, {Key::Backspace});
         CHECK_FALSE(state.time.playing);
         CHECK(state.camera == take.frames[1].camera);
-        const FrameMoment moment = renderFrame(state);
-        CHECK(moment.marks.empty());
-        CHECK(moment.camera == take.frames[1].camera);
+        const SceneFrame given = renderFrame(state);
+        CHECK(given.marks.empty());
+        CHECK(given.camera == take.frames[1].camera);
     }
 }
 
