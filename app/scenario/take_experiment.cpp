@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
@@ -20,14 +21,12 @@ constexpr float kViewTolerance = 1e-4f; // metres, and components of unit vector
 constexpr double kMostFrames = 100000;  // of an experiment
 
 std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
+    return fmt::format("{:.6g}", value);
 }
 
 /// "take-1: frame 12: ", counted as the person at the window sees it.
 std::string at(const Take& take, std::size_t frame) {
-    return take.name + ": frame " + std::to_string(take.firstFrame + frame) + ": ";
+    return fmt::format("{}: frame {}: ", take.name, take.firstFrame + frame);
 }
 
 // --- marks ---------------------------------------------------------------------------------------
@@ -217,16 +216,17 @@ Experiment experimentOf(const Take& take, const Scene& scene, Experiment base, i
     if (!own)
         expectFreeCamera(take, scene, base.animated);
 
+    std::vector<std::string> lightNames;
+    for (const Light& light : scene.lights)
+        lightNames.push_back(light.name);
     std::vector<TimelineEvent> events;
     for (std::size_t i = 0; i < take.frames.size(); ++i) {
         const SceneFrame& now = take.frames[i];
         const int when = i == 0 ? 0 : before + int(i); // in the experiment
-        for (std::size_t slot = 0; slot < scene.lights.size(); ++slot) {
-            const LightState was = i == 0 ? LightState{} : lightIn(take.frames[i - 1].lights, slot);
-            if (auto event =
-                    changeOf(when, scene.lights[slot].name, was, lightIn(now.lights, slot)))
-                events.emplace_back(*event);
-        }
+        const auto lightsBefore =
+            i == 0 ? std::span<const LightState>() : take.frames[i - 1].lights;
+        for (LightEvent& change : lightChanges(when, lightNames, lightsBefore, now.lights))
+            events.emplace_back(std::move(change));
         const bool moves =
             i == 0 ? now.camera != ownView(0) : now.camera != take.frames[i - 1].camera;
         if (!own && moves)

@@ -5,10 +5,11 @@
 #include "renderer/pipeline/renderer.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <stdexcept>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
@@ -19,13 +20,10 @@ std::string describeLight(const LightEvent& event) {
     std::string text = event.light == kAllLights ? "all lights" : event.light;
     if (event.on)
         text += *event.on ? " on" : " off";
-    if (event.power) {
-        char power[32];
-        std::snprintf(power, sizeof power, " to %.4g %%", double(*event.power) * 100.0);
-        text += power;
-    }
+    if (event.power)
+        text += fmt::format(" to {:.4g} %", double(*event.power) * 100.0);
     if (event.tint)
-        text += " tinted";
+        text += *event.tint == glm::vec3(1.0f) ? " untinted" : " tinted";
     return text;
 }
 
@@ -63,6 +61,16 @@ std::optional<LightEvent> changeOf(int frame, const std::string& light, const Li
     if (before.tint != after.tint)
         event.tint = after.tint;
     return event;
+}
+
+std::vector<LightEvent> lightChanges(int frame, std::span<const std::string> names,
+                                     std::span<const LightState> before,
+                                     std::span<const LightState> after) {
+    std::vector<LightEvent> changes;
+    for (std::size_t slot = 0; slot < names.size(); ++slot)
+        if (auto change = changeOf(frame, names[slot], lightIn(before, slot), lightIn(after, slot)))
+            changes.push_back(*std::move(change));
+    return changes;
 }
 
 int frameOf(const TimelineEvent& event) {

@@ -50,10 +50,15 @@ LightState withEvent(const LightState& light, const LightEvent& event);
 std::optional<LightEvent> changeOf(int frame, const std::string& light, const LightState& before,
                                    const LightState& after);
 
+/// Returns what changes light by light, by slot; see lightIn() for lists that miss some.
+std::vector<LightEvent> lightChanges(int frame, std::span<const std::string> names,
+                                     std::span<const LightState> before,
+                                     std::span<const LightState> after);
+
 using TimelineEvent = std::variant<LightEvent, NodeMotion, CameraMove>;
 
 int frameOf(const TimelineEvent& event);
-/// "key off", "key to 50 %", "mover moves", "camera cut".
+/// "key off", "key to 50 %", "key untinted", "mover moves", "camera cut".
 std::string describe(const TimelineEvent& event);
 
 /// What happens in the frames 0 .. frames - 1: events in the order of their frames. Those of one

@@ -4,8 +4,7 @@
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
-#include <cstdio>
-
+#include <fmt/format.h>
 #include <imgui.h>
 
 namespace afterglow {
@@ -78,11 +77,8 @@ void panelCamera(const PanelContext& panel) {
     tooltip("Shift C. Three seconds from one remembered place to the next; with fewer than two it "
             "sways.");
     const glm::vec3 eye = state.camera.position;
-    char where[96];
-    std::snprintf(where, sizeof where, "%.2f  %.2f  %.2f m", double(eye.x), double(eye.y),
-                  double(eye.z));
     rowLabel("Position");
-    dimText(where);
+    dimText(fmt::format("{:.2f}  {:.2f}  {:.2f} m", eye.x, eye.y, eye.z));
     places(state);
     if (litButton("Back to the scene's camera", false, ImGui::GetContentRegionAvail().x))
         goHome(state);

@@ -54,12 +54,12 @@ void lightRow(ViewState& state, std::size_t slot) {
     tooltip("Radiance, in multiples of the scene's. Ctrl-click to type.");
     ImGui::SameLine(0.0f, gap);
     if (quietButton("\xc2\xbd", light.power == 0.5f, small))
-        cause(state, {SceneEvent::Kind::DimLight, slot});
+        perform(state, {Action::DimLight, int(slot)});
     tooltip(keyHint(state, slot, "Shift ") + "To half its power, and back.");
     ImGui::SameLine(0.0f, gap);
     const bool tinted = light.tint != glm::vec3(1.0f);
     if (quietButton("##color", tinted, small))
-        cause(state, {SceneEvent::Kind::ColorLight, slot});
+        perform(state, {Action::ColorLight, int(slot)});
     colorDot(equalLuminanceTint(state.lightColors[slot]) * state.lightColors[slot]);
     tooltip(keyHint(state, slot, "Ctrl ") +
             "To another color of the same luminance, and back: a change that a gradient of "

@@ -4,8 +4,7 @@
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
-#include <cstdio>
-
+#include <fmt/format.h>
 #include <imgui.h>
 
 namespace afterglow {
@@ -25,21 +24,17 @@ std::string stateLine(const ViewState& state) {
         if (isFinished(t))
             line = name + " has finished: " + frames(count);
         else
-            line = (playing.loops ? "looping " : "playing ") + name + ": frame " +
-                   std::to_string(playing.next) + " of " + std::to_string(count);
+            line = fmt::format("{} {}: frame {} of {}", playing.loops ? "looping" : "playing", name,
+                               playing.next, count);
     }
     if (t.recording)
         return "recording " + frames(t.recording->frames.size()) +
                (line.empty() ? "" : ", " + line);
     if (!line.empty())
         return line;
-    char live[64];
-    std::snprintf(live, sizeof live, "%s: frame %u, %.2f s",
-                  state.frozen ? "frozen"
-                  : t.paused   ? "paused"
-                               : "live",
-                  t.frame > 0 ? t.frame - 1 : 0, t.last ? t.last->seconds : t.seconds);
-    line = live;
+    const char* const mode = state.frozen ? "frozen" : t.paused ? "paused" : "live";
+    line = fmt::format("{}: frame {}, {:.2f} s", mode, t.frame > 0 ? t.frame - 1 : 0,
+                       t.last ? t.last->seconds : t.seconds);
     if (t.recorded)
         line += "; " + t.recorded->name + " is kept, " + frames(t.recorded->frames.size());
     return line;

@@ -69,8 +69,11 @@ void perform(ViewState& state, const Command& command) {
     case Action::DividerLeft: return moveDivider(state.panes, -kDividerStep);
     case Action::DividerRight: return moveDivider(state.panes, kDividerStep);
     case Action::ToggleLight: return toggleLight(state, slot);
-    case Action::DimLight: return cause(state, {SceneEvent::Kind::DimLight, slot});
-    case Action::ColorLight: return cause(state, {SceneEvent::Kind::ColorLight, slot});
+    case Action::DimLight:
+    case Action::ColorLight:
+    case Action::ToggleAnimation:
+    case Action::CutCamera:
+    case Action::ToggleCameraPath: return letHappen(state, command);
     case Action::ToggleKeyLight: return toggleKeyLight(state);
     case Action::Brighter: return changeExposure(state, 0.5f);
     case Action::Darker: return changeExposure(state, -0.5f);
@@ -98,9 +101,6 @@ void perform(ViewState& state, const Command& command) {
     case Action::StopTake: return stopTake(state);
     case Action::SaveTake: wanted.saveTake = true; return;
     case Action::ToggleRepeat: return toggleRepeat(state);
-    case Action::ToggleAnimation: return cause(state, {SceneEvent::Kind::Animation});
-    case Action::CutCamera: return cause(state, {SceneEvent::Kind::CameraCut});
-    case Action::ToggleCameraPath: return cause(state, {SceneEvent::Kind::CameraPath});
     case Action::GoHome: return goHome(state);
     case Action::AddBookmark: return addBookmark(state);
     case Action::GoToBookmark: return goToBookmark(state, slot);

@@ -18,8 +18,8 @@ constexpr int kRarest = 100000;           // frames
 constexpr glm::ivec2 kNominal{1280, 720}; // a probe is placed on it before there is a picture
 constexpr std::string_view kAllLights = "*";
 
-// By SceneEvent::Kind.
-constexpr std::array<std::string_view, kSceneEventKinds> kEventNames{
+// Of kSceneActions.
+constexpr std::array<std::string_view, kSceneActions.size()> kEventNames{
     "toggle", "dim", "recolor", "animation", "camera-cut", "camera-path"};
 
 template <typename T, typename Name> // of what to choose from
@@ -86,8 +86,8 @@ std::vector<std::string> readLights(const JsonReader& json) {
 TourEvent readEvent(const JsonReader& json) {
     json.expectKeys({"event", "light", "every"});
     TourEvent event;
-    event.kind = SceneEvent::Kind(json.at("event").choice(kEventNames));
-    if (isLightEvent(event.kind))
+    event.action = kSceneActions[json.at("event").choice(kEventNames)];
+    if (isLightAction(event.action))
         event.light = readLine(json.at("light"), "the name of a light");
     else if (const auto light = json.find("light"))
         light->refuse("this event concerns no light");
@@ -229,7 +229,7 @@ void startTime(ViewState& state, const TourStop& stop) {
     if (!stop.repeats)
         return;
     const TourEvent& event = *stop.repeats;
-    state.repeated = {event.kind, event.light.empty() ? 0 : slotOf(state, event.light)};
+    state.repeated = {event.action, event.light.empty() ? 0 : int(slotOf(state, event.light))};
     state.repeatEvery = event.every;
     time.repeat = {.every = event.every, .first = std::uint32_t(event.every)};
 }

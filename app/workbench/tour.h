@@ -14,9 +14,9 @@ namespace afterglow {
 
 /// Something that happens again and again at a stop.
 struct TourEvent {
-    SceneEvent::Kind kind = SceneEvent::Kind::ToggleLight;
-    std::string light = {}; ///< its name; empty: the event concerns none
-    int every = 60;         ///< frames; it first happens after so many
+    Action action = Action::ToggleLight; ///< one of kSceneActions
+    std::string light = {};              ///< its name; empty: the event concerns none
+    int every = 60;                      ///< frames; it first happens after so many
 };
 
 /// One stop of the guided tour: what is said, and what is set up to show it.

@@ -1,5 +1,6 @@
 #include "app/workbench/view_state.h"
 
+#include "app/workbench/camera_path.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/aov.h"
 
@@ -143,7 +144,7 @@ void cycleFilter(ViewState& state, int step) {
 void toggleLight(ViewState& state, std::size_t slot) {
     if (slot >= state.lights.size())
         return;
-    cause(state, {SceneEvent::Kind::ToggleLight, slot});
+    letHappen(state, {Action::ToggleLight, int(slot)});
     notify(state, "Light " + state.lightNames[slot] + (state.lights[slot].on ? " on" : " off"));
 }
 
@@ -283,7 +284,7 @@ void notify(ViewState& state, std::string text, bool isError) {
 
 SceneFrame liveFrame(ViewState& state) {
     if (repeatIsDue(state.time))
-        cause(state, state.repeated);
+        letHappen(state, state.repeated);
     if (state.onPath) {
         state.camera = onPath(stations(state), state.pathSeconds);
         state.pathSeconds += kFixedStep;
@@ -296,19 +297,20 @@ SceneFrame liveFrame(ViewState& state) {
     const bool cut = std::exchange(state.cutPending, false);
     if (!state.time.last)
         return frame;
-    const auto changes = describeChange(state.lightNames, state.time.last->lights, state.lights);
-    const bool moved = cut && state.time.last->camera != state.camera;
-    if (moved)
+    const SceneFrame& last = *state.time.last;
+    if (cut && last.camera != state.camera)
         frame.marks.push_back("camera cut");
-    frame.step = !changes.empty() && frame.marks.empty() && state.time.last->camera == state.camera;
-    frame.marks.insert(frame.marks.end(), changes.begin(), changes.end());
+    const auto changes = lightChanges(0, state.lightNames, last.lights, state.lights);
+    frame.step = !changes.empty() && frame.marks.empty() && last.camera == state.camera;
+    for (const LightEvent& change : changes)
+        frame.marks.push_back(describe(change));
     return frame;
 }
 
 void follow(ViewState& state, const SceneFrame& frame) {
     state.camera = frame.camera;
     for (std::size_t i = 0; i < state.lights.size(); ++i)
-        state.lights[i] = i < frame.lights.size() ? frame.lights[i] : LightState{};
+        state.lights[i] = lightIn(frame.lights, i);
     state.onPath = false;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/measure/probe_log.h"
+#include "app/scenario/timeline.h"
 #include "app/workbench/fields.h"
 #include "app/workbench/fly_camera.h"
 #include "app/workbench/frame_images.h"
@@ -98,10 +99,10 @@ struct ViewState {
     bool onPath = false;
     double pathSeconds = 0.0;
 
-    SceneEvent repeated;            ///< the last thing that was let happen
-    int repeatEvery = 60;           ///< frames, when it repeats
-    std::vector<std::string> marks; ///< of the next frame, beside what its lights tell
-    bool cutPending = false;        ///< the camera has jumped: marks it
+    Command repeated{Action::ToggleLight}; ///< the last thing that was let happen
+    int repeatEvery = 60;                  ///< frames, when it repeats
+    std::vector<std::string> marks;        ///< of the next frame, beside what its lights tell
+    bool cutPending = false;               ///< the camera has jumped: marks it
 
     std::uint32_t seed = 0;
     Resolution resolution;

@@ -1,3 +1,4 @@
+#include "app/workbench/camera_path.h"
 #include "window_hands.h"
 
 #include <set>
@@ -141,7 +142,7 @@ TEST_CASE("the camera's path begins at home, or at the first of two bookmarks, a
             state.camera.position.x -= 0.2f;
             addBookmark(state);
         }
-        cause(state, {SceneEvent::Kind::CameraPath});
+        letHappen(state, {Action::ToggleCameraPath});
         renderFrame(state);
         CHECK(glm::distance(state.camera.position, first.position) < 1e-6f);
         glm::vec3 before = state.camera.position;
@@ -181,10 +182,10 @@ TEST_CASE("what repeats happens in the frames first, first + every, ... and in n
 }
 
 TEST_CASE("every kind of event can repeat") {
-    for (int kind = 0; kind < kSceneEventKinds; ++kind) {
-        CAPTURE(kind);
+    for (const Action action : kSceneActions) {
+        CAPTURE(int(action));
         ViewState state = running("moving");
-        cause(state, {SceneEvent::Kind(kind), 0});
+        letHappen(state, {action});
         renderFrame(state);
         state.repeatEvery = 5;
         toggleRepeat(state);

@@ -218,6 +218,34 @@ TEST_CASE("a light or a node that the scene does not have is named, with the nea
           "well");
 }
 
+TEST_CASE("a change of lights is told light by light") {
+    using Texts = std::vector<std::string>;
+    const Texts names{"key", "fill", "lamp"};
+    const auto told = [&](std::span<const LightState> before, std::span<const LightState> after) {
+        Texts texts;
+        for (const LightEvent& change : lightChanges(3, names, before, after)) {
+            CHECK(change.frame == 3);
+            texts.push_back(describe(change));
+        }
+        return texts;
+    };
+    const std::vector<LightState> before(3);
+    auto after = before;
+    CHECK(told(before, after).empty());
+    after[0].on = false;
+    after[2].power = 0.5f;
+    CHECK(told(before, after) == Texts{"key off", "lamp to 50 %"});
+    CHECK(told(after, before) == Texts{"key on", "lamp to 100 %"});
+    after[2].power = 0.125f;
+    after[2].tint = {1, 0, 0};
+    CHECK(told(before, after) == Texts{"key off", "lamp to 12.5 % tinted"});
+    CHECK(told(after, before) == Texts{"key on", "lamp to 100 % untinted"});
+    CHECK(told({}, after) ==
+          told(before, after)); // lights that are missing are as the scene has them
+    CHECK(told(after, std::span(after).first(1)) == Texts{"lamp to 100 % untinted"});
+    CHECK(lightChanges(3, {}, before, after).empty());
+}
+
 TEST_CASE("events say what they are") {
     CHECK(describe(turned(1, "key", false)) == "key off");
     CHECK(describe(powered(1, "*", 0.5f)) == "all lights to 50 %");
