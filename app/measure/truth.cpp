@@ -66,7 +66,8 @@ void GroundTruth::keepNow() {
 
 FrameInput inputAt(const Experiment& experiment, const RunPlan& plan, int frame) {
     const Interval& interval = plan.intervals[intervalAt(plan.intervals, frame)];
-    FrameInput input = interval.start.input(std::uint32_t(frame), experiment.seed);
+    FrameInput input = interval.start.input(experiment.seed);
+    input.frame = std::uint32_t(frame);
     input.seconds = experiment.seconds(frame);
     return input;
 }

@@ -6,9 +6,8 @@
 
 namespace afterglow {
 
-FrameInput SceneFrame::input(std::uint32_t number, std::uint32_t seed) const {
-    return {
-        .camera = camera, .seconds = seconds, .frame = number, .seed = seed, .lights = lights};
+FrameInput SceneFrame::input(std::uint32_t seed) const {
+    return {.camera = camera, .seconds = seconds, .frame = frame, .seed = seed, .lights = lights};
 }
 
 LightState lightIn(std::span<const LightState> lights, std::size_t slot) {

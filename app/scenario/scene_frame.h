@@ -14,15 +14,15 @@ struct FrameInput;
 /// What a frame of a scene is rendered from, and what is marked in it. Filters and their settings
 /// are not part of it.
 struct SceneFrame {
-    double seconds = 0.0; ///< scene time
+    std::uint32_t frame = 0; ///< its number: its noise follows from it
+    double seconds = 0.0;    ///< scene time
     Camera camera{};
     std::vector<LightState> lights{}; ///< by slot; missing ones are as the scene has them
     std::vector<std::string> marks{}; ///< what happens in it: "key off"
     bool step = false;                ///< light alone has changed: there is a response to measure
 
-    /// Returns what the renderer takes, as that frame of a run with this seed. Its lights are these,
-    /// which must outlive it.
-    FrameInput input(std::uint32_t number, std::uint32_t seed) const;
+    /// Returns what the renderer takes. Its lights are these, which must outlive it.
+    FrameInput input(std::uint32_t seed) const;
 
     bool operator==(const SceneFrame&) const = default;
 };

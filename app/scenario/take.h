@@ -2,16 +2,14 @@
 
 #include "app/scenario/scene_frame.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace afterglow {
 
-/// Frames one after the other, as they were given or are to be.
+/// Frames one after the other, as they were given or are to be. Their numbers rise by one.
 struct Take {
     std::string name{};
-    std::uint32_t firstFrame = 0; ///< the number of the first frame: its noise follows from it
     std::vector<SceneFrame> frames{};
 
     bool operator==(const Take&) const = default;

@@ -26,7 +26,7 @@ std::string number(double value) {
 
 /// "take-1: frame 12: ", counted as the person at the window sees it.
 std::string at(const Take& take, std::size_t frame) {
-    return fmt::format("{}: frame {}: ", take.name, take.firstFrame + frame);
+    return fmt::format("{}: frame {}: ", take.name, take.frames[frame].frame);
 }
 
 // --- marks ---------------------------------------------------------------------------------------

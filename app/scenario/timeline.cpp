@@ -125,7 +125,8 @@ std::vector<LightState> Timeline::lightsAt(const Scene& scene, int frame) const 
 
 SceneFrame Timeline::frameAt(const Scene& staged, double rate, int frame) const {
     const double seconds = frame / rate;
-    return {.seconds = seconds,
+    return {.frame = std::uint32_t(frame),
+            .seconds = seconds,
             .camera = cameraAt(staged, poseAt(staged, seconds)),
             .lights = lightsAt(staged, frame)};
 }
@@ -157,7 +158,7 @@ std::vector<Interval> intervalsOf(const Timeline& timeline, const Scene& staged,
     for (int frame = 0; frame < timeline.frames(); ++frame) {
         SceneFrame now = timeline.frameAt(staged, rate, frame);
         const SceneChange changed =
-            frame == 0 ? SceneChange{} : changeBetween(staged, before.input(0, 0), now.input(0, 0));
+            frame == 0 ? SceneChange{} : changeBetween(staged, before.input(0), now.input(0));
         if (frame == 0 || changed.any())
             intervals.push_back({.first = frame, .start = now, .changed = changed});
         intervals.back().end = frame + 1;

@@ -128,14 +128,14 @@ std::optional<std::string> drawPast(const PanelContext& panel, Rail rail,
     }
     float right = rail.bar.end().x;
     for (std::size_t i = count; i-- > 0;)
-        if (const PastFrame& past = time.past[first + i]; !past.marks.empty())
+        if (const SceneFrame& past = time.past[first + i]; !past.marks.empty())
             drawMark(draw, rail, rail.x(i) + 0.5f * rail.step, past.marks, past.step, right);
     if (!mouse)
         return {};
     const auto under = rail.under(*mouse, count);
     if (!under)
         return "The last frames; what happens in one gets a mark.\nIn and out point: I and O.";
-    const PastFrame& past = time.past[first + *under];
+    const SceneFrame& past = time.past[first + *under];
     return formatted("Frame %u", past.frame) +
            (past.marks.empty() ? "" : ": " + joined(past.marks));
 }

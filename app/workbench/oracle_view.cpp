@@ -77,7 +77,7 @@ void OracleView::begin(const Renderer& watched, Moment moment, const FrameSettin
     self.renderer.emplace(self.shaders, self.gl);
     self.renderer->setScene(watched.scene());
     self.renderer->resize(watched.size());
-    const auto inputOf = [&](const SceneFrame& frame) { return frame.input(0, self.moment->seed); };
+    const auto inputOf = [&](const SceneFrame& frame) { return frame.input(self.moment->seed); };
     GroundTruth::Request request{
         .now = inputOf(self.moment->now), .before = {}, .settings = settings, .samples = samples};
     if (self.moment->before)

@@ -33,7 +33,7 @@ void beginRound(Transport& t) {
     playing.next = 0;
     playing.frameBefore = t.frame;
     playing.secondsBefore = t.seconds;
-    t.frame = playing.take.firstFrame;
+    t.frame = playing.take.frames.front().frame;
     t.seconds = playing.take.frames.front().seconds;
     t.restoreWanted = playing.fromCheckpoint;
     t.resetWanted = !playing.fromCheckpoint;
@@ -64,14 +64,11 @@ void changeLimit(Transport& t, int by) {
 }
 
 void remember(Transport& t, SceneFrame frame) {
-    t.past.push_back({t.frame, frame.marks, frame.step});
+    t.past.push_back(frame);
     if (t.past.size() > kPast)
         t.past.pop_front();
-    if (t.recording) {
-        if (t.recording->frames.empty())
-            t.recording->firstFrame = t.frame;
+    if (t.recording)
         t.recording->frames.push_back(frame);
-    }
     t.last = std::move(frame);
 }
 
@@ -96,8 +93,10 @@ SceneFrame nextFrame(Transport& t, const SceneFrame& live) {
     if (isFinished(t))
         throw std::logic_error("the take '" + t.playing->take.name + "' has no further frame");
     t.given = t.playing ? t.playing->take.frames[t.playing->next] : live;
-    if (!t.playing)
+    if (!t.playing) {
+        t.given->frame = t.frame;
         t.given->seconds = t.seconds;
+    }
     return *t.given;
 }
 

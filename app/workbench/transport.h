@@ -26,15 +26,6 @@ inline constexpr std::array<int, 6> kFrameLimits = {0, 30, 10, 5, 2, 1};
 inline constexpr std::size_t kPast = 600;           ///< frames that are remembered for the strip
 inline constexpr std::size_t kMostRecorded = 36000; ///< frames: ten minutes at 60 a second
 
-/// What is remembered of a rendered frame.
-struct PastFrame {
-    std::uint32_t frame = 0;
-    std::vector<std::string> marks{};
-    bool step = false;
-
-    bool operator==(const PastFrame&) const = default;
-};
-
 /// Something that a person does again and again without a hand: in the frames first,
 /// first + every, ...
 struct Repeat {
@@ -75,11 +66,11 @@ struct Transport {
     double seconds = 0.0;    ///< scene time of the next frame
     Repeat repeat{};
 
-    std::deque<PastFrame> past{};     ///< the last kPast frames, the newest last
+    std::deque<SceneFrame> past{};    ///< the last kPast frames, the newest last
     std::optional<SceneFrame> last{}; ///< what the last rendered frame was given
 
     std::optional<Playing> playing{}; ///< empty: the person's hand is live
-    std::optional<Take> recording{};  ///< since the in point; firstFrame from its first frame on
+    std::optional<Take> recording{};  ///< since the in point
     std::optional<Take> recorded{};   ///< from the in point to the out point
     bool hasCheckpoint = false;       ///< of the in point
     int takesRecorded = 0;            ///< they are named "take-1", "take-2", ...
@@ -96,7 +87,8 @@ bool wantsFrame(const Transport& t, double secondsSinceLastFrame);
 /// Returns the seconds until the next frame is due: 0 at least, infinity where none is wanted.
 double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame);
 
-/// What the next frame is given: `live`, with the transport's time, or what the played take says.
+/// What the next frame is given: `live`, with the transport's number and time, or what the played
+/// take says.
 /// Where a take has ended there is none: a std::logic_error.
 SceneFrame nextFrame(Transport& t, const SceneFrame& live);
 

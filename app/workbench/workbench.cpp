@@ -113,7 +113,7 @@ void Workbench::Impl::render(const SceneFrame& frame) {
     std::vector<FilterRun> runs;
     for (const std::size_t pane : shownPanes(state.panes))
         runs.push_back({pane, state.panes.all[pane].settings});
-    renderer.render(frame.input(state.time.frame, state.seed), state.panes.frame, runs);
+    renderer.render(frame.input(state.seed), state.panes.frame, runs);
     if (listens)
         capture.end();
     renderer.setListener(nullptr);

@@ -19,9 +19,10 @@ ViewState running(std::string_view scene = "cornell") {
 }
 
 Take takeOfTwo(const ViewState& state, std::size_t lights) {
-    Take take{.name = "two", .firstFrame = 100};
+    Take take{.name = "two"};
     for (int i = 0; i < 2; ++i) {
-        SceneFrame given{.seconds = i / 60.0, .camera = state.home};
+        SceneFrame given{
+            .frame = 100u + std::uint32_t(i), .seconds = i / 60.0, .camera = state.home};
         given.camera.position.x += 0.1f * float(i + 1);
         given.lights.resize(lights);
         if (lights > 0)

@@ -35,7 +35,7 @@ std::string text(const LightState& light) {
     return text(light.on, light.power, text(light.tint));
 }
 std::string text(const Take& take) {
-    return text(take.name, take.firstFrame, take.frames.size());
+    return text(take.name, take.frames.empty() ? 0 : take.frames.front().frame, take.frames.size());
 }
 std::string text(const Camera& camera) {
     const glm::quat& q = camera.orientation;

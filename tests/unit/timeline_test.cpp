@@ -92,6 +92,7 @@ TEST_CASE("intervals end where something changes and nowhere else") {
                                  turned(20, "key", true),   // taken back in the same frame
                                  turned(30, "key", false),  //
                                  powered(30, "fill", 2.0f), // two at once
+                                 powered(40, "key", 0.5f),  // of a light that is off
                                  turned(59, "key", true)}); // the last frame is an interval, too
     const Scene scene = makeProceduralScene("cornell");     // key, fill
     const std::vector<Interval> intervals = intervalsOf(timeline, scene, 60.0);

@@ -97,9 +97,11 @@ struct Program {
 
 /// A walk with a light that goes out in its third frame.
 inline Take walkOf(int frames, std::uint32_t first = 0) {
-    Take take{.name = "walk", .firstFrame = first};
+    Take take{.name = "walk"};
     for (int i = 0; i < frames; ++i) {
-        SceneFrame given{.seconds = 0.25 * (i + 1), .lights = std::vector<LightState>(2)};
+        SceneFrame given{.frame = first + std::uint32_t(i),
+                         .seconds = 0.25 * (i + 1),
+                         .lights = std::vector<LightState>(2)};
         given.camera.position.x = 10.0f + float(i);
         given.lights[1].on = i < 2;
         if (i == 2) {
