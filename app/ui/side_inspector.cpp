@@ -1,4 +1,4 @@
-// What the last frame knows of one pixel.
+// Draws all that the last frame holds of one pixel.
 
 #include "app/ui/draw.h"
 #include "app/ui/panels.h"
@@ -24,7 +24,7 @@ void heading(const PanelContext& panel, const std::string& text) {
     ImGui::PopFont();
 }
 
-// The pixels around one, enlarged, with the edges of strata.
+// Draws the pixels around one, enlarged, with the edges of strata.
 void magnifier(const PanelContext& panel, const Inspection& seen) {
     const GpuTexture* const picture = panel.bench.picture(seen.state);
     if (!picture)
@@ -57,7 +57,7 @@ void magnifier(const PanelContext& panel, const Inspection& seen) {
     draw.AddRect(low, high, packed(color::kAccent), 0.0f, 0, 1.5f);
 }
 
-// What the magnifier shows.
+// Writes which picture the magnifier shows.
 void beside(const PanelContext& panel, const Inspection& seen) {
     ImGui::SameLine(0.0f, 0.9f * em());
     ImGui::BeginGroup();
@@ -74,7 +74,7 @@ void beside(const PanelContext& panel, const Inspection& seen) {
     ImGui::EndGroup();
 }
 
-// In lines that end between words; Dear ImGui also ends them inside of numbers.
+// Breaks a sentence into lines that end between words; Dear ImGui also ends them inside of numbers.
 std::string inLines(const std::string& sentence, float width) {
     std::string lines, line;
     for (std::size_t at = 0; at < sentence.size();) {
@@ -115,7 +115,7 @@ void story(const PanelContext& panel, const std::vector<std::string>& sentences)
     ImGui::Dummy({width, height});
 }
 
-// A value at the right; below its name if both have no room in one line.
+// Draws a value at the right; below its name if both have no room in one line.
 void valueRow(const InspectedValue& value) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, line = 1.3f * em();
@@ -142,7 +142,7 @@ void groups(const PanelContext& panel, const std::vector<InspectedGroup>& all) {
     }
 }
 
-// How many there are of one reason, and their share as a bar.
+// Draws how many there are of one reason, and their share as a bar.
 void countRow(std::string_view name, std::uint32_t count, std::uint64_t all) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = 1.45f * em();

@@ -1,140 +1,211 @@
 #include "app/workbench/inspection.h"
 
-#include "app/workbench/inspection_story.h"
-#include "renderer/pipeline/aov.h"
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
 
 namespace afterglow {
 namespace {
 
-std::string listOf(const std::vector<double>& numbers) {
-    std::string text;
-    for (const double number : numbers)
-        text += (text.empty() ? "" : " ") + fourDigits(number);
-    return text;
+template <glm::length_t count, class T>
+std::vector<double> numbersOf(const glm::vec<count, T>& v) {
+    return std::vector<double>(&v[0], &v[0] + count);
+}
+template <class Number>
+std::vector<double> numbersOf(Number v) {
+    return {double(v)};
 }
 
-std::vector<double> numbersOf(glm::vec2 v) {
-    return {v.x, v.y};
-}
-std::vector<double> numbersOf(glm::vec3 v) {
-    return {v.x, v.y, v.z};
-}
+/// A group to which lines are added.
+struct Group : InspectedGroup {
+    Group(std::string name, const PixelFacts& facts)
+        : InspectedGroup{std::move(name), {}}, images(facts.images) {}
 
-InspectedValue line(std::string name, std::vector<double> numbers, std::string_view note) {
-    std::string value = listOf(numbers);
-    return {std::move(name), std::move(value), std::string(note), std::move(numbers)};
-}
-InspectedValue words(std::string name, std::string value, std::string_view note,
-                     std::vector<double> numbers = {}) {
-    return {std::move(name), std::move(value), std::string(note), std::move(numbers)};
-}
-/// With the note of the image of that name.
-InspectedValue fromImage(std::string name, std::string_view aov, std::vector<double> numbers) {
-    return line(std::move(name), std::move(numbers), aovByName(aov).meaning);
-}
+    void addText(std::string name, std::string value, std::string_view note,
+                 std::vector<double> numbers = {}) {
+        values.push_back({std::move(name), std::move(value), std::string(note), numbers});
+    }
+    void addNumbers(std::string name, const std::vector<double>& numbers, std::string_view note) {
+        std::string value;
+        for (const double number : numbers)
+            value += (value.empty() ? "" : " ") + fourDigits(number);
+        addText(std::move(name), std::move(value), note, numbers);
+    }
+    template <class Value>
+    void add(std::string name, const Value& value, std::string_view note) {
+        addNumbers(std::move(name), numbersOf(value), note);
+    }
+    /// Adds a value that is a texel of the image of that name, with its note.
+    template <class Value>
+    void addOf(std::string_view aov, std::string name, const Value& value) {
+        add(std::move(name), value, aovByName(aov).meaning);
+    }
+    /// Adds the texel of an image where the filter makes it.
+    void addImage(std::string_view aov, std::string name) {
+        if (const auto found = images.find(aov); found != images.end())
+            addNumbers(std::move(name), found->second, aovByName(aov).meaning);
+    }
 
-std::string place(glm::ivec2 p) {
-    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
-}
-std::vector<double> numbersOf(glm::ivec2 p) {
-    return {double(p.x), double(p.y)};
-}
+    const std::map<std::string_view, std::vector<double>>& images;
+};
 
-/// Lines of one group, made from the facts of a pixel.
+/// What the tests of a tap found, by gpu::kHistory... code.
+constexpr std::array kTapResults{"valid", "none", "off screen", "instance", "depth", "normal"};
+
+/// Makes the lines of one group from the facts of a pixel.
 class Lines {
 public:
     Lines(const PixelFacts& facts, const Scene& scene) : f_(facts), scene_(scene) {}
 
-    InspectedGroup surface() const {
-        InspectedGroup group{"surface", {}};
-        auto& v = group.values;
-        v.push_back(words("instance", f_.isSurface() ? nameOfInstance() : "none: background",
-                          aovByName("instance").meaning, {double(f_.instance)}));
+    Group surface() const {
+        Group g("surface", f_);
+        g.addText("instance", f_.isSurface() ? nameOfInstance() : "none: background",
+                  aovByName("instance").meaning, {double(f_.instance)});
         if (!f_.isSurface())
-            return group;
-        v.push_back(words("triangle", std::to_string(f_.triangle), "number in its mesh, from 0",
-                          {double(f_.triangle)}));
-        v.push_back(line("barycentric weights", numbersOf(f_.barycentrics),
-                         "of the triangle's second and third corner"));
-        v.push_back(fromImage("position", "position", numbersOf(f_.position)));
-        v.push_back(fromImage("normal", "normal", numbersOf(f_.normal)));
-        v.push_back(fromImage("depth", "depth", {f_.depth}));
-        v.push_back(fromImage("slope", "slope", numbersOf(f_.slope)));
-        v.push_back(fromImage("motion", "motion", numbersOf(glm::vec2(f_.motion))));
-        v.push_back(fromImage("albedo", "albedo", numbersOf(f_.albedo)));
-        v.push_back(fromImage("emission", "emission", numbersOf(f_.emission)));
-        return group;
+            return g;
+        g.addText("triangle", std::to_string(f_.triangle), "number in its mesh, from 0",
+                  {double(f_.triangle)});
+        g.add("barycentric weights", f_.barycentrics, "of the triangle's second and third corner");
+        for (const char* const aov :
+             {"position", "normal", "depth", "slope", "motion", "albedo", "emission"})
+            g.addImage(aov, aov);
+        return g;
     }
 
-    InspectedGroup rawSignal() const {
-        return {"raw signal",
-                {fromImage("raw", "raw", numbersOf(glm::vec3(f_.raw))),
-                 line("luminance", {f_.raw.a}, "of the raw signal, radiance"),
-                 words("seed",
-                       place(f_.seed.tile) + " of frame " + std::to_string(f_.seed.frame) +
-                           (f_.plan.carrySamples && !f_.hasExtraSamples && f_.isSample() ? ", again"
-                                                                                         : ""),
-                       "from where in the tile of blue noise, and from which frame, the pixel's "
-                       "random numbers are",
-                       {double(f_.seed.tile.x), double(f_.seed.tile.y), double(f_.seed.frame)})}};
+    Group rawSignal() const {
+        Group g("raw signal", f_);
+        g.addImage("raw", "raw");
+        g.add("luminance", f_.rawLuminance, "of the raw signal, radiance");
+        const bool again = f_.plan.carrySamples && !f_.samplesBeside && f_.isSample();
+        g.addText("seed",
+                  fmt::format("{} of frame {}{}", placeText(f_.seed.tile), f_.seed.frame,
+                              again ? ", again" : ""),
+                  "from where in the tile of blue noise, and from which frame, the pixel's random "
+                  "numbers are",
+                  {double(f_.seed.tile.x), double(f_.seed.tile.y), double(f_.seed.frame)});
+        return g;
     }
 
-    InspectedGroup gradientSample() const {
-        InspectedGroup group{"gradient sample", {}};
-        auto& v = group.values;
-        v.push_back(words("stratum", place(f_.stratum),
-                          "of 3x3 pixels, counted from the upper left", numbersOf(f_.stratum)));
-        v.push_back(words("shaded", f_.hasExtraSamples ? "beside the picture" : "in the picture",
-                          "whether gradient samples take the place of pixels"));
-        if (f_.sample)
-            addSample(v, *f_.sample);
-        else
-            v.push_back(words("sample", "none", aovByName("samples").meaning));
-        v.push_back(words("offered sample", std::string(sampleFate(f_.fate)),
-                          aovByName("fate").meaning, {double(f_.fate)}));
-        if (f_.gradient)
-            addGradient(v, *f_.gradient);
-        return group;
-    }
-
-    InspectedGroup history() const {
-        InspectedGroup group{"history", {}};
-        auto& v = group.values;
-        v.push_back(words("state", std::string(historyReason(f_.reason)),
-                          aovByName("reason").meaning, {double(f_.reason)}));
-        if (f_.fetched) {
-            v.push_back(line("came from", numbersOf(f_.fetched->position),
-                             "where the surface was in the frame before, pixels"));
-            v.push_back(line("length before", {f_.fetched->length},
-                             "of the history as fetched, frames; 0 is none"));
+    Group gradientSample() const {
+        Group g("gradient sample", f_);
+        const auto addPlace = [&](const char* name, const char* what, glm::ivec2 place,
+                                  const char* note) {
+            g.addText(name, what + placeText(place), note, numbersOf(place));
+        };
+        addPlace("stratum", "", f_.stratum, "of 3x3 pixels, counted from the upper left");
+        g.addText("shaded", f_.samplesBeside ? "beside the picture" : "in the picture",
+                  "whether gradient samples take the place of pixels");
+        if (!f_.sample) {
+            g.addText("sample", "none", aovByName("samples").meaning);
+        } else {
+            addPlace("sample", "pixel ", f_.sample->landing,
+                     "where in the stratum its gradient sample landed");
+            addPlace("source", "pixel ", f_.sample->source,
+                     "whose sample of the frame before it is");
         }
-        v.push_back(line("luminance", {f_.historyLuminance},
-                         "of the history as fetched, 0 without one, radiance"));
-        if (f_.range)
-            v.push_back(line("raw range", numbersOf(*f_.range),
-                             "low and high percentile of the raw luminance around, radiance"));
-        if (f_.plan.useLambda || f_.plan.usePercentiles)
-            v.push_back(fromImage("lambda", "lambda", {f_.lambda}));
-        v.push_back(fromImage("alpha", "alpha", {f_.alpha}));
-        v.push_back(fromImage("length", "history", {f_.length}));
-        v.push_back(fromImage("moments", "moments", numbersOf(f_.moments)));
-        return group;
+        if (f_.sample && f_.gradient) {
+            g.add("luminance before", f_.gradient->before, "in the frame before, radiance");
+            g.add("luminance now", f_.gradient->now,
+                  "of the same surface with the same random numbers, radiance");
+        }
+        g.addText("offered sample", std::string(sampleFate(f_.fate)), aovByName("fate").meaning,
+                  {double(f_.fate)});
+        if (!f_.plan.useLambda)
+            return g;
+        const glm::vec4 measured = f_.gradient->gradient;
+        g.addOf("gradient_sample", "delta, measured", measured.x);
+        g.addOf("gradient_sample_max", "Delta, measured", measured.y);
+        g.add("luminance of the stratum", measured.z,
+              "mean of the raw signal over its pixels, radiance");
+        g.add("variance of the stratum", measured.w,
+              "of the raw luminance over its pixels, radiance squared");
+        g.addImage("gradient", "delta, reconstructed");
+        g.addImage("gradient_max", "Delta, reconstructed");
+        g.addImage("lambda_strata", "lambda of the stratum");
+        return g;
     }
 
-    InspectedGroup filter() const {
-        InspectedGroup group{"filter", {}};
-        auto& v = group.values;
-        if (f_.plan.accumulate)
-            v.push_back(
-                fromImage("accumulated", "accumulated", numbersOf(glm::vec3(f_.accumulated))));
-        if (f_.plan.atrousIterations > 0)
-            v.push_back(fromImage("variance", "variance", {f_.filtered.a}));
-        v.push_back(fromImage("filtered", "filtered", numbersOf(glm::vec3(f_.filtered))));
-        v.push_back(fromImage("color", "color", numbersOf(f_.color)));
-        return group;
+    Group history() const {
+        const gpu::TemporalFindings& found = *f_.temporal;
+        const bool kept = f_.hasHistory();
+        Group g("history", f_);
+        g.addText("state", std::string(historyReason(f_.reason())), aovByName("reason").meaning,
+                  {double(f_.reason())});
+        if (f_.hasTaps()) {
+            g.add("came from", found.position, "where the surface was in the frame before, pixels");
+            g.add("depth before", glm::vec2(found.depth, found.depthTolerance),
+                  "of the surface in the frame before, and how far a pixel there may be from it, "
+                  "metres");
+            g.add("valid weight", found.validWeight,
+                  fmt::format("B: bilinear, of the pixels there that passed all tests; below {} "
+                              "there is no history",
+                              gpu::kLeastWeight));
+        }
+        g.add("length before", found.fetchedSamples,
+              "N of the history as fetched, frames; 0 is none");
+        if (kept) {
+            g.add("color before", found.fetchedColor, "of the history as fetched, radiance");
+            g.add("moments before", found.fetchedMoments, "of the history as fetched");
+        }
+        g.addOf("history_luminance", "luminance", found.accumulated.a);
+        if (kept && f_.plan.clampsHistory()) {
+            g.add("clamp from", found.clampLow, "lower bound of the history's color, radiance");
+            g.add("clamp to", found.clampHigh, "upper bound of the history's color, radiance");
+            g.add("color clamped", found.usedColor, "of the history as it is blended, radiance");
+        }
+        if (kept && f_.plan.usePercentiles)
+            g.add("raw range", found.range,
+                  "low and high percentile of the raw luminance around, radiance");
+        if (f_.plan.useLambda || f_.plan.usePercentiles)
+            g.addOf("lambda", "lambda", found.control.x);
+        if (kept && f_.plan.cutsHistory())
+            g.add("length cut", found.usedSamples, "N that lambda leaves of the history, frames");
+        if (kept)
+            g.add("1 / (N + 1)", found.leastWeight, "what the newest frame weighs in a mean");
+        g.addOf("alpha", "alpha", found.control.y);
+        g.addOf("history", "length", found.moments.z);
+        g.addOf("moments", "moments", glm::vec2(found.moments));
+        return g;
+    }
+
+    /// Makes a line for each pixel that the history is interpolated between.
+    Group taps() const {
+        Group g("history taps", f_);
+        for (const gpu::HistoryTap& tap : f_.temporal->taps)
+            g.addText("pixel " + placeText(tap.pixel),
+                      fmt::format("{} {}", fourDigits(tap.weight),
+                                  kTapResults.at(std::size_t(tap.reason))),
+                      noteOf(tap), {tap.weight, double(tap.reason)});
+        return g;
+    }
+
+    Group filter() const {
+        Group g("filter", f_);
+        if (f_.temporal)
+            g.addOf("accumulated", "accumulated", glm::vec3(f_.temporal->accumulated));
+        for (const char* const aov : {"variance", "filtered", "color"})
+            g.addImage(aov, aov);
+        return g;
     }
 
 private:
+    std::string noteOf(const gpu::HistoryTap& tap) const {
+        if (tap.reason == gpu::kHistoryOffScreen)
+            return "bilinear weight; outside the picture";
+        std::string note = fmt::format("bilinear weight; instance {} was seen there", tap.instance);
+        if (tap.reason == gpu::kHistoryInstance)
+            return note;
+        note +=
+            fmt::format(", at a depth of {}, {} from that of the surface", fourDigits(tap.depth),
+                        fourDigits(std::abs(tap.depth - f_.temporal->depth)));
+        if (tap.reason != gpu::kHistoryDepth)
+            note +=
+                fmt::format("; the cosine between the normals is {}, of at least {}",
+                            fourDigits(tap.cosine), fourDigits(f_.plan.temporal.normalTolerance));
+        return note;
+    }
+
     std::string nameOfInstance() const {
         std::string name = std::to_string(f_.instance);
         if (f_.instance > scene_.instances.size())
@@ -147,33 +218,6 @@ private:
         if (!material.empty())
             name += " (" + material + ")";
         return name;
-    }
-
-    void addSample(std::vector<InspectedValue>& v, const CarriedSample& sample) const {
-        v.push_back(words("sample", "pixel " + place(sample.landing),
-                          "where in the stratum its gradient sample landed",
-                          numbersOf(sample.landing)));
-        v.push_back(words("source", "pixel " + place(sample.source),
-                          "whose sample of the frame before it is", numbersOf(sample.source)));
-        v.push_back(line("luminance before", {sample.before}, "in the frame before, radiance"));
-        if (sample.now)
-            v.push_back(line("luminance now", {*sample.now},
-                             "of the same surface with the same random numbers, radiance"));
-    }
-
-    void addGradient(std::vector<InspectedValue>& v, const StratumGradient& gradient) const {
-        v.push_back(fromImage("delta, measured", "gradient_sample", {gradient.measured.x}));
-        v.push_back(fromImage("Delta, measured", "gradient_sample_max", {gradient.measured.y}));
-        v.push_back(line("luminance of the stratum", {gradient.mean},
-                         "mean of the raw signal over its pixels, radiance"));
-        v.push_back(line("variance of the stratum", {gradient.variance},
-                         "of the raw luminance over its pixels, radiance squared"));
-        if (f_.plan.gradientIterations > 0) {
-            v.push_back(fromImage("delta, reconstructed", "gradient", {gradient.reconstructed.x}));
-            v.push_back(
-                fromImage("Delta, reconstructed", "gradient_max", {gradient.reconstructed.y}));
-        }
-        v.push_back(fromImage("lambda of the stratum", "lambda_strata", {gradient.lambda}));
     }
 
     const PixelFacts& f_;
@@ -189,13 +233,15 @@ Inspection inspectionOf(const PixelFacts& facts, const Scene& scene, std::size_t
                           .stratum = facts.stratum,
                           .state = state,
                           .signal = signal,
-                          .groups = {},
+                          .groups = {lines.surface(), lines.rawSignal()},
                           .story = storyOf(facts)};
-    inspection.groups = {lines.surface(), lines.rawSignal()};
     if (facts.plan.carrySamples)
         inspection.groups.push_back(lines.gradientSample());
-    if (facts.plan.accumulate && facts.isSurface())
+    if (facts.temporal && facts.isSurface()) {
         inspection.groups.push_back(lines.history());
+        if (facts.hasTaps())
+            inspection.groups.push_back(lines.taps());
+    }
     inspection.groups.push_back(lines.filter());
     return inspection;
 }

@@ -18,12 +18,13 @@ struct InspectedValue {
 };
 
 struct InspectedGroup {
-    std::string title; ///< "surface", "raw signal", "gradient sample", "history", "filter"
+    std::string
+        title; ///< "surface", "raw signal", "gradient sample", "history", "history taps", "filter"
     std::vector<InspectedValue> values;
 };
 
-/// All that the last frame knows of one pixel and of its stratum, in one filter. What the filter
-/// does not make is left out.
+/// All that the last frame holds of one pixel and of its stratum, in one filter, without what the
+/// filter does not make.
 struct Inspection {
     glm::ivec2 pixel{0}, stratum{0};
     std::size_t state = 0, signal = 0;
@@ -31,13 +32,20 @@ struct Inspection {
     std::vector<std::string> story; ///< sentences: where the sample came from, why there is none
 };
 
-/// Of one signal in the filter with that state.
+/// Makes the lines and the story of one signal in the filter with that state.
 Inspection inspectionOf(const PixelFacts& facts, const Scene& scene, std::size_t state,
                         std::size_t signal = 0);
 
-/// "another instance was seen there": gpu::kHistory... codes.
+/// Explains the numbers of a pixel in sentences.
+std::vector<std::string> storyOf(const PixelFacts& facts);
+
+/// Returns a gpu::kHistory... code in words: "another instance was seen there".
 std::string_view historyReason(int code);
-/// What a sample did: "lost the race": gpu::kFate... codes.
+/// Returns a gpu::kFate... code in words: "lost the race".
 std::string_view sampleFate(std::uint32_t code);
+/// Returns four significant digits, as the inspector writes numbers.
+std::string fourDigits(double value);
+/// Returns "(12, 7)".
+std::string placeText(glm::ivec2 p);
 
 } // namespace afterglow

@@ -87,9 +87,9 @@ void Instruments::count(const Renderer& renderer) {
     pendingCounters_ = readback_.add<std::uint32_t>(counters, {0, 0}, counters.size());
 }
 
-void Instruments::inspect(Renderer& renderer, std::size_t pane, const FrameSettings& settings,
-                          glm::ivec2 pixel, std::size_t signal) {
-    pixel_.ask(renderer, pane, settings, pixel, signal, readback_);
+void Instruments::inspect(Renderer& renderer, std::size_t pane, glm::ivec2 pixel,
+                          std::size_t signal) {
+    pixel_.ask(renderer, pane, pixel, signal, readback_);
     inspected_ = {pane, signal};
 }
 

@@ -26,8 +26,7 @@ public:
                  const SceneFrame& given);
     void count(const Renderer& renderer); ///< what FrameStats tells of the last frame
     /// A pixel of the last frame, as PixelQuery::ask().
-    void inspect(Renderer& renderer, std::size_t pane, const FrameSettings& settings,
-                 glm::ivec2 pixel, std::size_t signal);
+    void inspect(Renderer& renderer, std::size_t pane, glm::ivec2 pixel, std::size_t signal);
     void submit(); ///< after the last of these, and before the commands of the next frame
 
     struct Measured {

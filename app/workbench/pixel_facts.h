@@ -1,46 +1,21 @@
 #pragma once
 
 #include "renderer/gl/readback.h"
-#include "renderer/passes/history_taps_pass.h"
-#include "renderer/pipeline/renderer.h"
+#include "renderer/passes/gradient_pass.h"
+#include "renderer/passes/temporal_pass.h"
+#include "renderer/pipeline/aov.h"
 
-#include <array>
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <variant>
 
 namespace afterglow {
 
-/// One of the four pixels of the frame before that a history is interpolated between.
-struct HistoryTap {
-    glm::ivec2 pixel{0};
-    float weight = 0.0f;            ///< bilinear; the four sum to 1
-    int reason = gpu::kHistoryNone; ///< gpu::kHistory...
-};
-
-/// What the temporal pass fetched at a pixel. No image keeps it: it is found again from the images
-/// that the pass read. docs/pipeline.md, "Temporal accumulation".
-struct FetchedHistory {
-    glm::vec2 position{0.0f}; ///< in the frame before, pixels, their centers at integers
-    std::array<HistoryTap, 4> taps;
-    float length = 0.0f; ///< N as fetched, frames; 0: none
-
-    int validTaps() const; ///< of those that weigh anything
-    int usedTaps() const;  ///< that weigh anything
-};
-
 /// The gradient sample of a stratum.
 struct CarriedSample {
-    glm::ivec2 landing{0};    ///< pixel of this frame
-    glm::ivec2 source{0};     ///< pixel of the frame before
-    float before = 0.0f;      ///< luminance there and then
-    std::optional<float> now; ///< unless nobody has shaded it
-};
-
-/// What a stratum knows of the change of its light, where the filter asks.
-struct StratumGradient {
-    glm::vec2 measured{0.0f};      ///< delta, Delta of its sample; 0 without one
-    glm::vec2 reconstructed{0.0f}; ///< with those around; as measured if there are no iterations
-    float mean = 0.0f, variance = 0.0f; ///< of the raw luminance in the stratum
-    float lambda = 0.0f;
+    glm::ivec2 landing{0}; ///< pixel of this frame
+    glm::ivec2 source{0};  ///< pixel of the frame before
 };
 
 /// A random number's origin: which pixel of the blue-noise tile, in which frame (modulo 2^18).
@@ -51,82 +26,73 @@ struct PixelSeed {
 
 /// What the last frame holds at one pixel and its stratum, in one filter.
 struct PixelFacts {
-    FilterSettings settings;
     SvgfPlan plan;
-    bool hasExtraSamples = false; ///< they are beside the picture
+    bool samplesBeside = false; ///< gradient samples are not in the picture
     glm::ivec2 pixel{0}, stratum{0};
 
-    // The surface. Where there is none, `instance` is 0 and what is here has no meaning.
-    std::uint32_t instance = 0; ///< from 1
+    std::uint32_t instance = 0; ///< from 1; 0: there is no surface
     std::uint32_t triangle = 0;
     glm::vec2 barycentrics{0.0f};
-    glm::vec3 position{0.0f}, normal{0.0f};
-    float depth = 0.0f;
-    glm::vec2 slope{0.0f};
-    glm::vec4 motion{0.0f};
-    glm::vec3 albedo{0.0f}, emission{0.0f};
-
-    glm::vec4 raw{0.0f}; ///< a: luminance
+    float rawLuminance = 0.0f;
     PixelSeed seed;
+    /// The AOVs that the filter makes, by name: a number for each channel.
+    std::map<std::string_view, std::vector<double>> images;
 
     // Where samples are carried.
     std::optional<CarriedSample> sample;
-    std::uint32_t fate = gpu::kFateNone; ///< of the one that this stratum offered
-    glm::ivec2 offeredTo{0};             ///< the stratum where that landed, if it did
+    std::uint32_t fate = gpu::kFateNone;           ///< of the one that this stratum offered
+    glm::ivec2 offeredTo{0};                       ///< the stratum where that landed, if it did
+    std::optional<gpu::GradientFindings> gradient; ///< where they have been shaded
 
-    std::optional<StratumGradient> gradient; ///< where the filter uses it
-
-    // Where the filter accumulates.
-    int reason = gpu::kHistoryNone;
-    float lambda = 0.0f, alpha = 0.0f;
-    float length = 0.0f; ///< N', as left for the next frame
-    float historyLuminance = 0.0f;
-    glm::vec2 moments{0.0f};
-    glm::vec4 accumulated{0.0f};
-    std::optional<FetchedHistory> fetched; ///< where a frame before can be looked at
-    std::optional<glm::ivec2> lambdaFrom;  ///< the stratum whose lambda it is, unless of several
-    std::optional<glm::vec2> range;        ///< of the raw luminance, for lambda from percentiles
-
-    glm::vec4 filtered{0.0f}; ///< a: variance
-    glm::vec3 color{0.0f};
+    std::optional<gpu::TemporalFindings> temporal; ///< where the filter accumulates
 
     bool isSurface() const { return instance != 0; }
     bool isSample() const { return sample && sample->landing == pixel; }
+    double image(std::string_view aov) const { return images.at(aov).at(0); }
+    int reason() const { return int(temporal->control.w); } ///< gpu::kHistory...
+    bool hasHistory() const { return temporal->fetchedSamples > 0.0f; }
+    /// Returns whether the filter looked for a history in the frame before.
+    bool hasTaps() const {
+        return std::ranges::any_of(temporal->taps, [](auto& tap) { return tap.weight > 0.0f; });
+    }
 };
 
-/// Asks what a frame holds at one pixel, and is answered once a readback has finished.
+/// Asks for what a frame holds at one pixel, and is answered once a readback has finished.
 class PixelQuery {
 public:
-    explicit PixelQuery(ShaderLibrary& shaders) : past_(shaders) {}
+    explicit PixelQuery(ShaderLibrary& shaders) : gradient_(shaders), temporal_(shaders) {}
 
-    /// Of the last frame, whose settings are given. The pixel is inside the picture and the state
-    /// ran in that frame; else std::logic_error.
-    void ask(Renderer& renderer, std::size_t state, const FrameSettings& settings, glm::ivec2 pixel,
-             std::size_t signal, PixelReadback& readback);
-    PixelFacts answer(const PixelReadback& readback) const; ///< what was asked last
-
-    /// The places of the pixels in the readback; empty for images that the filter does not make.
-    struct Regions {
-        template <class Pixel>
-        using Region = PixelReadback::Region<Pixel>;
-
-        Region<glm::uvec4> visibility, surface;
-        Region<glm::vec4> guides, motion, albedo, emission, filtered, composed;
-        Region<glm::vec2> slope;
-        Region<glm::vec4> raw; ///< of the stratum's pixels
-        Region<std::uint32_t> seed;
-        Region<glm::uvec4> sample;
-        Region<glm::vec4> extraRaw, gradientSample, gradient;
-        Region<float> lambda; ///< of the stratum and those around
-        Region<glm::vec4> control, moments, accumulated;
-        Region<glm::vec4> luminanceRange; ///< of the four tiles around
-        HistoryTapsPass::Region past;
-    };
+    /// Asks for a pixel of the last frame. One outside the picture, or a state that did not run in
+    /// that frame, is std::logic_error.
+    void ask(Renderer& renderer, std::size_t state, glm::ivec2 pixel, std::size_t signal,
+             PixelReadback& readback);
+    PixelFacts answer(const PixelReadback& readback) const; ///< of the last ask()
 
 private:
-    HistoryTapsPass past_;
+    template <class Pixel>
+    using Region = PixelReadback::Region<Pixel>;
+    /// A texel of an AOV.
+    struct Texel {
+        const AovInfo* aov;
+        int channel;
+        bool isFloatBits;
+        std::variant<Region<float>, Region<glm::vec2>, Region<glm::vec4>, Region<glm::uvec4>> at;
+    };
+    /// The places of what was asked in the readback; empty where the filter does not make it.
+    struct Regions {
+        Region<glm::uvec4> visibility, sample;
+        Region<glm::vec4> raw;
+        Region<std::uint32_t> seed;
+        std::vector<Texel> images;
+        std::optional<GradientPass::Findings::Region> gradient;
+        std::optional<TemporalPass::Findings::Region> temporal;
+    };
+    static Texel texelOf(const AovInfo& aov, const AovSource& source, glm::ivec2 texel,
+                         PixelReadback& readback);
+
+    GradientPass gradient_;
+    TemporalPass temporal_;
     PixelFacts known_; ///< what needs no answer
-    glm::ivec2 size_{0}, strata_{0};
     Regions at_;
 };
 

@@ -221,7 +221,7 @@ void Workbench::Impl::inspectPixel(bool rendered) {
     const bool same = inspection && inspection->pixel == wanted->pixel &&
                       inspection->state == wanted->pane && inspection->signal == signal;
     if (rendered || !same)
-        instruments.inspect(renderer, wanted->pane, nowSettings, wanted->pixel, signal);
+        instruments.inspect(renderer, wanted->pane, wanted->pixel, signal);
 }
 
 const GpuTexture* Workbench::picture(std::size_t pane) {

@@ -8,6 +8,18 @@ svgf::Image svgf::blendOf(const SvgfPlan& plan) {
     return plan.feedbackIteration == 0 ? kColor : kAccumulated;
 }
 
+TemporalPass::Inputs svgf::temporalInputs(const FilterInput& in, FilterImages own) {
+    return {in.newest,          in.surfaces.visibility, in.previousVisibility,
+            in.surfaces.guides, in.previousGuides,      in.surfaces.slope,
+            in.surfaces.motion, own.previous(kColor),   own.previous(kMoments),
+            own[kLambda],       own[kLuminanceRange]};
+}
+
+GradientPass::Inputs svgf::gradientInputs(const FilterInput& in) {
+    return {in.signal.raw.current(), in.signal.raw.previous(), in.samples, in.surfaces.guides,
+            in.samplesBeside ? &in.signal.sampleRaw : nullptr};
+}
+
 SvgfFilter::SvgfFilter(ShaderLibrary& shaders)
     : gradient_(shaders), gradientSpline_(shaders, Kernel::B3Spline5x5),
       gradientBox_(shaders, Kernel::Box3x3), lambda_(shaders), luminanceRange_(shaders),
@@ -37,11 +49,7 @@ const GpuTexture& SvgfFilter::run(FrameContext& frame, const FilterInput& in, co
 
 void SvgfFilter::reconstructGradient(const Run& run) {
     const auto& [frame, in, plan, own] = run;
-    const SignalTargets& signal = in.signal;
-    gradient_.run(frame,
-                  {signal.raw.current(), signal.raw.previous(), in.samples, in.surfaces.guides,
-                   in.samplesBeside ? &signal.sampleRaw : nullptr},
-                  {own[kGradientSamples]}, plan.gradient);
+    gradient_.run(frame, gradientInputs(in), {own[kGradientSamples]}, plan.gradient);
     GradientAtrousPass& atrous =
         plan.gradientKernel == Kernel::B3Spline5x5 ? gradientSpline_ : gradientBox_;
     gpu::EdgeStopping edges = plan.gradientEdges;
@@ -58,10 +66,7 @@ void SvgfFilter::reconstructGradient(const Run& run) {
 
 void SvgfFilter::accumulate(const Run& run) {
     const auto& [frame, in, plan, own] = run;
-    temporal_.run(frame,
-                  {in.newest, in.surfaces.visibility, in.previousVisibility, in.surfaces.guides,
-                   in.previousGuides, in.surfaces.slope, in.surfaces.motion, own.previous(kColor),
-                   own.previous(kMoments), own[kLambda], own[kLuminanceRange]},
+    temporal_.run(frame, temporalInputs(in, own),
                   {own[blendOf(plan)], own[kMoments], own[kControl]}, plan.temporal);
 }
 

@@ -31,6 +31,9 @@ enum Image : std::size_t {
 /// Returns the image that holds the temporal blend: the history itself where nothing is fed back
 /// from the spatial filter.
 Image blendOf(const SvgfPlan& plan);
+/// The inputs of the family's passes.
+TemporalPass::Inputs temporalInputs(const FilterInput& in, FilterImages own);
+GradientPass::Inputs gradientInputs(const FilterInput& in);
 } // namespace svgf
 
 /// Runs the plan of a filter of the family.

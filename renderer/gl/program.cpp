@@ -17,6 +17,10 @@ bool strictBindings = true;
 bool strictBindings = false;
 #endif
 
+bool isBlock(GLenum type) {
+    return type == GL_UNIFORM_BUFFER || type == GL_SHADER_STORAGE_BUFFER;
+}
+
 bool isImage(GLenum type) {
     return type >= GL_IMAGE_1D && type <= GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY;
 }
@@ -36,7 +40,9 @@ std::string_view kindName(GLenum type) {
     case GL_UNSIGNED_INT_IMAGE_2D_ARRAY: return "uimage2DArray";
     case GL_IMAGE_BUFFER: return "imageBuffer";
     case GL_UNSIGNED_INT_IMAGE_BUFFER: return "uimageBuffer";
-    case GL_UNIFORM_BUFFER: return "a uniform block"; // no type of GLSL has this number
+    // No types of GLSL have these numbers.
+    case GL_UNIFORM_BUFFER: return "a uniform block";
+    case GL_SHADER_STORAGE_BUFFER: return "a storage block";
     default: return {};
     }
 }
@@ -56,8 +62,8 @@ GLuint idOf(const Binding& binding) {
 
 /// Returns whether a uniform of this type can take this texture, array or buffer.
 bool fits(GLenum type, const Binding& binding) {
-    if (binding.block || type == GL_UNIFORM_BUFFER)
-        return binding.block && type == GL_UNIFORM_BUFFER;
+    if (binding.block || isBlock(type))
+        return binding.block && isBlock(type);
     const FormatInfo format = info(formatOf(binding));
     if (isImage(type) && !format.isImage)
         return false;
@@ -77,7 +83,7 @@ bool fits(GLenum type, const Binding& binding) {
 
 std::string describe(const Binding& binding) {
     if (binding.block)
-        return "a buffer with a uniform block";
+        return "a buffer with a block";
     return (binding.buffer  ? "a buffer of texels of format "
             : binding.array ? "an array of textures of format "
                             : "a texture of format ") +
@@ -157,26 +163,27 @@ void LinkedProgram::reflect() {
         slots_.push_back({slotName.data(), GLenum(type), unit});
         glProgramUniform1i(id(), location, unit);
     }
-    reflectBlocks();
+    reflectBlocks(GL_UNIFORM_BLOCK, GL_UNIFORM_BUFFER);
+    reflectBlocks(GL_SHADER_STORAGE_BLOCK, GL_SHADER_STORAGE_BUFFER);
     // Drivers list them in orders of their own; messages shall not depend on that.
     std::ranges::sort(slots_, {}, &Slot::name);
 }
 
-void LinkedProgram::reflectBlocks() {
+void LinkedProgram::reflectBlocks(GLenum interface, GLenum type) {
     GLint count = 0;
-    glGetProgramInterfaceiv(id(), GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    glGetProgramInterfaceiv(id(), interface, GL_ACTIVE_RESOURCES, &count);
     for (GLuint i = 0; i < GLuint(count); ++i) {
         const std::array<GLenum, 2> wanted{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
         std::array<GLint, 2> got{};
-        glGetProgramResourceiv(id(), GL_UNIFORM_BLOCK, i, GLsizei(wanted.size()), wanted.data(),
+        glGetProgramResourceiv(id(), interface, i, GLsizei(wanted.size()), wanted.data(),
                                GLsizei(got.size()), nullptr, got.data());
         std::array<char, 128> blockName{};
-        glGetProgramResourceName(id(), GL_UNIFORM_BLOCK, i, GLsizei(blockName.size()), nullptr,
+        glGetProgramResourceName(id(), interface, i, GLsizei(blockName.size()), nullptr,
                                  blockName.data());
         if (std::string_view(blockName.data()) == "Params")
             params_ = GpuBuffer(name_ + " Params", std::size_t(got[1]));
         else
-            slots_.push_back({blockName.data(), GL_UNIFORM_BUFFER, got[0]});
+            slots_.push_back({blockName.data(), type, got[0]});
     }
 }
 
@@ -197,14 +204,15 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
         throw std::logic_error(name_ + " declares " + slot.name + " as " +
                                std::string(kindName(slot.type)) + ", but was given " +
                                describe(binding));
-    if (written && !isImage(slot.type))
+    const bool isWritable = isImage(slot.type) || slot.type == GL_SHADER_STORAGE_BUFFER;
+    if (written && !isWritable)
         throw std::logic_error(name_ + " samples " + slot.name + "; it cannot be written");
     const GLuint texture = idOf(binding);
     if (texture == 0)
         throw std::logic_error(name_ + " was given nothing as " + slot.name +
                                ": the texture was never made");
-    if (slot.type == GL_UNIFORM_BUFFER) {
-        glBindBufferBase(GL_UNIFORM_BUFFER, GLuint(slot.unit), texture);
+    if (isBlock(slot.type)) {
+        glBindBufferBase(slot.type, GLuint(slot.unit), texture);
         return;
     }
     if (!isImage(slot.type)) {
@@ -217,7 +225,9 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
 
 // Reads then give zero, and stores do nothing: never the texture of a program before.
 void LinkedProgram::unbind(const Slot& slot) const {
-    if (isImage(slot.type))
+    if (isBlock(slot.type))
+        glBindBufferBase(slot.type, GLuint(slot.unit), 0);
+    else if (isImage(slot.type))
         glBindImageTexture(GLuint(slot.unit), 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
     else
         glBindTextureUnit(GLuint(slot.unit), 0);

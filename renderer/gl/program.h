@@ -14,8 +14,8 @@
 
 namespace afterglow {
 
-/// A texture, an array of them, a buffer seen as texels, or a buffer that holds a uniform block,
-/// under the name that the shader knows it by. For the duration of a call.
+/// A texture, an array of them, a buffer seen as texels, or a buffer that holds a block, under the
+/// name that the shader knows it by. For the duration of a call.
 struct Binding {
     Binding(std::string_view shaderName, const GpuTexture& source)
         : name(shaderName), texture(&source) {}
@@ -30,7 +30,7 @@ struct Binding {
     const GpuTexture* texture = nullptr; ///< one of the four
     const GpuTextureArray* array = nullptr;
     const TexelBuffer* buffer = nullptr;
-    const GpuBuffer* block = nullptr;
+    const GpuBuffer* block = nullptr; ///< a uniform block; a shader storage block where written
 };
 
 /// Makes a name that a program does not use, or that it uses and was not given, std::logic_error.
@@ -64,13 +64,13 @@ public:
 private:
     struct Slot {
         std::string name;
-        GLenum
-            type; ///< GL_SAMPLER_2D, GL_UNSIGNED_INT_IMAGE_BUFFER, ...; GL_UNIFORM_BUFFER: a block
+        GLenum type; ///< GL_SAMPLER_2D, GL_UNSIGNED_INT_IMAGE_BUFFER, ...; of a block
+                     ///< GL_UNIFORM_BUFFER or GL_SHADER_STORAGE_BUFFER
         GLint unit;
     };
 
     void reflect();
-    void reflectBlocks();
+    void reflectBlocks(GLenum interface, GLenum type);
     const Slot* find(std::string_view name) const;
     void bindOne(const Slot& slot, const Binding& binding, bool written) const;
     void unbind(const Slot& slot) const;

@@ -55,6 +55,24 @@ void PixelReadback::makeRoom(std::size_t bytes) {
     capacity_ = capacity;
 }
 
+std::size_t PixelReadback::place(std::size_t bytes) {
+    const std::size_t offset = (used_ + kAlignment - 1) / kAlignment * kAlignment;
+    makeRoom(offset + bytes);
+    used_ = offset + bytes;
+    return offset;
+}
+
+std::size_t PixelReadback::addBytes(const GpuBuffer& buffer, std::size_t bytes) {
+    if (stage_ != Stage::Adding)
+        throw std::logic_error("reading back buffer " + buffer.label() +
+                               ": the batch was submitted and not cleared");
+    if (bytes > buffer.bytes())
+        throw std::logic_error("reading back buffer " + buffer.label() + ": it is too small");
+    const std::size_t offset = place(bytes);
+    glCopyNamedBufferSubData(buffer.id(), buffer_.id(), 0, GLintptr(offset), GLsizeiptr(bytes));
+    return offset;
+}
+
 // Through a framebuffer: drivers copy from one into a buffer without waiting, where several of them
 // wait for glGetTextureSubImage().
 std::size_t PixelReadback::addBytes(const GpuTexture& texture, glm::ivec2 min, glm::ivec2 size,
@@ -73,11 +91,7 @@ std::size_t PixelReadback::addBytes(const GpuTexture& texture, glm::ivec2 min, g
         glm::any(glm::greaterThan(size, texture.size() - min)))
         mistake("the rectangle is not inside it");
 
-    const std::size_t offset = (used_ + kAlignment - 1) / kAlignment * kAlignment;
-    const std::size_t bytes = std::size_t(size.x) * std::size_t(size.y) * pixelBytes;
-    makeRoom(offset + bytes);
-    used_ = offset + bytes;
-
+    const std::size_t offset = place(std::size_t(size.x) * std::size_t(size.y) * pixelBytes);
     if (!source_)
         source_ = GlObject<FramebufferKind>::create("readback");
     glNamedFramebufferTexture(source_.id(), GL_COLOR_ATTACHMENT0, texture.id(), 0);

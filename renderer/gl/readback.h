@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/gl/buffer.h"
 #include "renderer/gl/texture.h"
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace afterglow {
 
-/// Pixels of textures on their way from the device.
+/// Pixels of textures, and values of buffers, on their way from the device.
 ///
 ///     const auto region = readback.add<glm::vec4>(texture, p);   // as the commands so far leave
 ///     it readback.submit();
@@ -39,6 +40,12 @@ public:
     Region<Pixel> add(const GpuTexture& texture, glm::ivec2 min, glm::ivec2 size = glm::ivec2(1)) {
         return {addBytes(texture, min, size, sizeof(Pixel), kHoldsIntegers<Pixel>), size};
     }
+    /// The first value of a buffer, as one pixel.
+    template <class Value>
+    Region<Value> add(const GpuBuffer& buffer) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        return {addBytes(buffer, sizeof(Value)), glm::ivec2(1)};
+    }
     void submit(); ///< nothing more will be added
     void finish(); ///< waits until everything that was submitted has arrived
     void clear();  ///< forgets everything; its memory is kept for the next batch
@@ -65,6 +72,8 @@ private:
 
     std::size_t addBytes(const GpuTexture& texture, glm::ivec2 min, glm::ivec2 size,
                          std::size_t pixelBytes, bool integers);
+    std::size_t addBytes(const GpuBuffer& buffer, std::size_t bytes);
+    std::size_t place(std::size_t bytes); ///< offset of so many more
     void makeRoom(std::size_t bytes);
     const std::byte* bytesAt(std::size_t offset, std::size_t bytes) const;
 

@@ -10,28 +10,42 @@ void StrataPass::run(FrameContext& frame, const Inputs& in, const Outputs& out) 
                       {{"strataGuides", out.strataGuides}, {"strataSlope", out.strataSlope}});
 }
 
+namespace {
+
+const Defines kExtra{{"EXTRA_SAMPLES", "1"}};
+
+std::vector<Binding> readsOf(const GradientPass::Inputs& in) {
+    std::vector<Binding> reads{{"raw", in.raw},
+                               {"previousRaw", in.previousRaw},
+                               {"samples", in.samples},
+                               {"guides", in.guides}};
+    if (in.sampleRaw)
+        reads.emplace_back("sampleRaw", *in.sampleRaw);
+    return reads;
+}
+
+} // namespace
+
 GradientPass::GradientPass(ShaderLibrary& shaders)
-    : merged_(shaders.compute("denoise/gradient.comp")),
-      extra_(shaders.compute("denoise/gradient.comp", {{"EXTRA_SAMPLES", "1"}})) {}
+    : shaders_(shaders), merged_(shaders.compute("denoise/gradient.comp")),
+      extra_(shaders.compute("denoise/gradient.comp", kExtra)) {}
 
 void GradientPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                        const gpu::GradientParams& params) {
     const auto scope = frame.pass("gradient", {&out.gradient});
-    if (in.sampleRaw)
-        extra_.dispatch(out.gradient.size(), params,
-                        {{"raw", in.raw},
-                         {"previousRaw", in.previousRaw},
-                         {"samples", in.samples},
-                         {"guides", in.guides},
-                         {"sampleRaw", *in.sampleRaw}},
-                        {{"gradient", out.gradient}});
-    else
-        merged_.dispatch(out.gradient.size(), params,
-                         {{"raw", in.raw},
-                          {"previousRaw", in.previousRaw},
-                          {"samples", in.samples},
-                          {"guides", in.guides}},
-                         {{"gradient", out.gradient}});
+    const std::array<Binding, 1> writes{Binding{"gradient", out.gradient}};
+    (in.sampleRaw ? extra_ : merged_).dispatch(out.gradient.size(), params, readsOf(in), writes);
+}
+
+GradientPass::Findings::Region GradientPass::inspect(FrameContext& frame, const Inputs& in,
+                                                     const gpu::GradientParams& params,
+                                                     glm::ivec2 stratum, PixelReadback& readback) {
+    ComputeProgram& program =
+        shaders_.compute("denoise/gradient.comp", inspecting(in.sampleRaw ? kExtra : Defines{}));
+    const std::array<Binding, 1> writes{findings_.start(stratum, in.samples.size())};
+    const auto scope = frame.timer.scope(frame.prefix + "inspect gradient");
+    program.dispatch(glm::ivec2(1), params, readsOf(in), writes);
+    return findings_.copyTo(readback);
 }
 
 GradientAtrousPass::GradientAtrousPass(ShaderLibrary& shaders, Kernel kernel)

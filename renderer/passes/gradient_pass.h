@@ -1,8 +1,10 @@
 #pragma once
 
 #include "renderer/gl/shader_library.h"
+#include "renderer/passes/findings.h"
 #include "renderer/passes/frame_context.h"
 #include "shared/denoise_params.h"
+#include "shared/instrument_params.h"
 
 namespace afterglow {
 
@@ -42,13 +44,22 @@ public:
         GpuTexture& gradient; ///< delta, Delta, mean luminance, variance of luminance
     };
 
+    using Findings = FindingsBuffer<gpu::GradientFindings>;
+
     explicit GradientPass(ShaderLibrary& shaders);
     void run(FrameContext& frame, const Inputs& in, const Outputs& out,
              const gpu::GradientParams& params);
 
+    /// As TemporalPass::inspect(), of one stratum.
+    Findings::Region inspect(FrameContext& frame, const Inputs& in,
+                             const gpu::GradientParams& params, glm::ivec2 stratum,
+                             PixelReadback& readback);
+
 private:
+    ShaderLibrary& shaders_;
     ComputeProgram& merged_;
     ComputeProgram& extra_;
+    Findings findings_;
 };
 
 /// One a-trous iteration over delta and Delta on the grid of strata.

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "renderer/gl/shader_library.h"
+#include "renderer/passes/findings.h"
 #include "renderer/passes/frame_context.h"
 #include "shared/denoise_params.h"
+#include "shared/instrument_params.h"
 
 namespace afterglow {
 
@@ -31,12 +33,22 @@ public:
         GpuTexture& control;
     };
 
+    using Findings = FindingsBuffer<gpu::TemporalFindings>;
+
     explicit TemporalPass(ShaderLibrary& shaders);
     void run(FrameContext& frame, const Inputs& in, const Outputs& out,
              const gpu::TemporalParams& params);
 
+    /// Runs the same shader for one pixel, compiled to write all that it computes there, and adds
+    /// that to the readback. After run(), with the same frame and inputs, the results are the same.
+    Findings::Region inspect(FrameContext& frame, const Inputs& in,
+                             const gpu::TemporalParams& params, glm::ivec2 pixel,
+                             PixelReadback& readback);
+
 private:
+    ShaderLibrary& shaders_;
     ComputeProgram& program_;
+    Findings findings_;
 };
 
 } // namespace afterglow

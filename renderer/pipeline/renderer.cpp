@@ -202,26 +202,27 @@ void Renderer::Impl::traceSamplesBeside(const FrameContext& outer) {
 }
 
 // From each signal to the filtered one.
-void Renderer::Impl::filter(const FrameContext& context, const FilterRun& run, bool beside) {
-    RenderTargets& t = targets;
+void Renderer::Impl::filter(const FrameContext& context, const FilterRun& run) {
     SignalFilter& programsOfFilter = programsOf(familyOf(run.settings.filter));
     State& state = states[run.state];
     for (std::size_t i = 0; i < signals.size(); ++i) {
         FrameContext own = context.forSignal(signals.size() > 1 ? signals[i].name : "");
-        const SignalTargets& signal = t.signals[i];
-        state.results[i] =
-            &programsOfFilter.run(own,
-                                  {.surfaces = t.surfaces,
-                                   .previousVisibility = t.previousVisibility,
-                                   .previousGuides = t.previousGuides,
-                                   .samples = t.samples,
-                                   .strataGuides = t.strataGuides,
-                                   .strataSlope = t.strataSlope,
-                                   .signal = signal,
-                                   .newest = signal.raw.current(),
-                                   .samplesBeside = beside},
-                                  run.settings, FilterImages(t.filters[run.state].own[i]));
+        state.results[i] = &programsOfFilter.run(own, filterInput(i), run.settings,
+                                                 FilterImages(targets.filters[run.state].own[i]));
     }
+}
+
+FilterInput Renderer::Impl::filterInput(std::size_t signal) const {
+    const RenderTargets& t = targets;
+    return {.surfaces = t.surfaces,
+            .previousVisibility = t.previousVisibility,
+            .previousGuides = t.previousGuides,
+            .samples = t.samples,
+            .strataGuides = t.strataGuides,
+            .strataSlope = t.strataSlope,
+            .signal = t.signals.at(signal),
+            .newest = t.signals.at(signal).raw.current(),
+            .samplesBeside = samplesBeside};
 }
 
 const GpuTexture& Renderer::Impl::present(FrameContext& context, std::size_t state,
@@ -262,7 +263,7 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
 
     FrameContext context = self.context();
     context.listener = self.listener;
-    const bool beside =
+    const bool beside = self.samplesBeside =
         SamplePlacement(settings.lighting.gradientSamples) == SamplePlacement::Extra;
     self.states = {};
     FilterNeeds needs;
@@ -288,7 +289,7 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
     for (const FilterRun& run : runs) {
         if (runs.size() > 1)
             context.prefix = std::string(1, char('A' + run.state)) + " ";
-        self.filter(context, run, beside);
+        self.filter(context, run);
         self.present(context, run.state, settings);
     }
 
@@ -339,6 +340,13 @@ Renderer::FilterImage Renderer::filterImage(std::string_view aov, std::size_t st
                 row.channel};
     }
     return {};
+}
+
+Renderer::FilterCall Renderer::filterCall(std::size_t state, std::size_t signal) {
+    if (!ran(state))
+        throw std::logic_error("Renderer: no filter of this state ran in the last frame");
+    return {impl_->context(), impl_->filterInput(signal),
+            FilterImages(impl_->targets.filters[state].own.at(signal))};
 }
 
 void Renderer::setListener(PassListener* listener) {

@@ -142,6 +142,15 @@ public:
     };
     FilterImage filterImage(std::string_view aov, std::size_t state = 0,
                             std::size_t signal = 0) const;
+    /// What a filter's passes had in the last frame, for those that run again to be inspected: the
+    /// histories of a frame are the previous ones until the next frame begins. A state that has not
+    /// run is std::logic_error.
+    struct FilterCall {
+        FrameContext context;
+        FilterInput in;
+        FilterImages own;
+    };
+    FilterCall filterCall(std::size_t state, std::size_t signal);
     FrameStats readStats() const; ///< waits for the GPU
     GpuTimer& timer();
 

@@ -46,7 +46,8 @@ struct Renderer::Impl {
     void trace(const FrameContext& context, const Surfaces& surfaces, const GpuTexture& seeds,
                GpuTexture& (*raw)(SignalTargets&));
     void traceSamplesBeside(const FrameContext& context);
-    void filter(const FrameContext& context, const FilterRun& run, bool beside);
+    void filter(const FrameContext& context, const FilterRun& run);
+    FilterInput filterInput(std::size_t signal) const;
     const GpuTexture& present(FrameContext& context, std::size_t state,
                               const FrameSettings& settings);
     void placeSurfaces(FrameContext& context, double seconds);
@@ -72,6 +73,7 @@ struct Renderer::Impl {
     RenderTargets targets;
     PassListener* listener = nullptr;
 
+    bool samplesBeside = false; ///< gradient samples of the last frame are not in the picture
     std::span<const SignalInfo> signals = signalsOf(Signal::Both);
     /// Of the last frame, by state.
     struct State {

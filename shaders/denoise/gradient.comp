@@ -4,13 +4,15 @@
 // random numbers, now and one frame ago. Schied et al. 2018, section 4.2.
 // A stratum without a sample holds (0, 0): it adds nothing to numerator and denominator alike.
 // With EXTRA_SAMPLES the sample was not shaded in the picture, but beside it.
+// With INSPECT the output is one stratum's GradientFindings; see lib/inspect.glsl.
 
 #include "lib/encoding.glsl"
 #include "lib/fetch.glsl"
-#include "shared/bindings.h"
+#include "lib/inspect.glsl"
 #include "shared/denoise_params.h"
+#include "shared/instrument_params.h"
 
-layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
+Inspectable(GradientFindings);
 layout(std140, binding = kPassBlock) uniform Params {
     GradientParams params;
 };
@@ -23,10 +25,12 @@ Float4Texture(guides);
 Float4Texture(sampleRaw); // per stratum; a: luminance
 #endif
 
+#ifndef INSPECT
 writeonly uniform image2D gradient; // delta, Delta, mean luminance, variance of luminance
+#endif
 
 void main() {
-    ivec2 s = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 s = texelToCompute();
     if (any(greaterThanEqual(s, sizeOf(samples))))
         return;
     ivec2 first = s * int(kStratumSize);
@@ -42,6 +46,8 @@ void main() {
         float now = fetch(raw, first + ivec2(place % kStratumSize, place / kStratumSize)).a;
 #endif
         float before = fetch(previousRaw, unpackPixel(carried.z)).a;
+        NOTE(now, now);
+        NOTE(before, before);
         float difference = now - before;
         change = vec2(params.magnitude == kGradientAbsolute ? abs(difference) : difference,
                       max(now, before));
@@ -63,5 +69,9 @@ void main() {
     for (int i = 0; i < count; ++i)
         variance += (values[i] - mean) * (values[i] - mean) / float(count);
 
+#ifdef INSPECT
+    findings.gradient = vec4(change, mean, variance);
+#else
     imageStore(gradient, s, vec4(change, mean, variance));
+#endif
 }

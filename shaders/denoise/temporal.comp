@@ -7,13 +7,16 @@
 // Three competitors share this pass: a history clamped to its neighborhood (Karis 2014, Salvi
 // 2016), lambda from percentiles of one frame (merian), and lambda that cuts the history length
 // (NRD).
+// With INSPECT the outputs are one pixel's TemporalFindings; see lib/inspect.glsl.
 
 #include "lib/color.glsl"
 #include "lib/fetch.glsl"
 #include "lib/frame.glsl"
+#include "lib/inspect.glsl"
 #include "shared/denoise_params.h"
+#include "shared/instrument_params.h"
 
-layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
+Inspectable(TemporalFindings);
 layout(std140, binding = kPassBlock) uniform Params {
     TemporalParams params;
 };
@@ -30,9 +33,11 @@ Float4Texture(previousMoments);
 FloatTexture(lambda);          // per stratum
 Float4Texture(luminanceRange); // per tile: low, high, foreground pixels
 
+#ifndef INSPECT
 writeonly uniform image2D accumulated; // a: luminance of the history before any clamp
 writeonly uniform image2D moments;
 writeonly uniform image2D control; // lambda, alpha, history length, reason
+#endif
 
 struct History {
     vec3 color;
@@ -41,16 +46,32 @@ struct History {
     int reason;
 };
 
+void store(ivec2 p, vec4 newAccumulated, vec4 newMoments, vec4 newControl) {
+#ifdef INSPECT
+    findings.accumulated = newAccumulated;
+    findings.moments = newMoments;
+    findings.control = newControl;
+#else
+    imageStore(accumulated, p, newAccumulated);
+    imageStore(moments, p, newMoments);
+    imageStore(control, p, newControl);
+#endif
+}
 
-int tapReason(ivec2 q, uint instance, float depth, float tolerance, vec3 normal) {
+// `tap` is its number, for who inspects it.
+int tapReason(int tap, ivec2 q, uint instance, float depth, float tolerance, vec3 normal) {
     if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
         return kHistoryOffScreen;
+    NOTE(taps[tap].instance, fetch(previousVisibility, q).x);
     if (fetch(previousVisibility, q).x != instance)
         return kHistoryInstance;
     vec4 guide = fetch(previousGuides, q);
+    NOTE(taps[tap].depth, guide.w);
     if (abs(guide.w - depth) > tolerance)
         return kHistoryDepth;
-    return dot(guide.xyz, normal) >= params.normalTolerance ? kHistoryKept : kHistoryNormal;
+    float cosine = dot(guide.xyz, normal);
+    NOTE(taps[tap].cosine, cosine);
+    return cosine >= params.normalTolerance ? kHistoryKept : kHistoryNormal;
 }
 
 History fetchHistory(ivec2 p, vec3 normal) {
@@ -70,6 +91,9 @@ History fetchHistory(ivec2 p, vec3 normal) {
     float tolerance = params.depthTolerance * (abs(surfaceSlope.x) + abs(surfaceSlope.y)) +
                       kDepthEpsilon * moved.z;
     uint instance = fetch(visibility, p).x;
+    NOTE(position, position);
+    NOTE(depth, moved.z);
+    NOTE(depthTolerance, tolerance);
 
     History history = none;
     float weightSum = 0.0, largest = -1.0;
@@ -77,7 +101,10 @@ History fetchHistory(ivec2 p, vec3 normal) {
         ivec2 place = ivec2(i & 1, i >> 1);
         ivec2 q = corner + place;
         float weight = (place.x == 1 ? f.x : 1.0 - f.x) * (place.y == 1 ? f.y : 1.0 - f.y);
-        int reason = tapReason(q, instance, moved.z, tolerance, normal);
+        int reason = tapReason(i, q, instance, moved.z, tolerance, normal);
+        NOTE(taps[i].pixel, q);
+        NOTE(taps[i].weight, weight);
+        NOTE(taps[i].reason, reason);
         if (weight > largest) {
             largest = weight;
             history.reason = reason;
@@ -90,6 +117,7 @@ History fetchHistory(ivec2 p, vec3 normal) {
         history.samples += weight * m.z;
         weightSum += weight;
     }
+    NOTE(validWeight, weightSum);
     if (weightSum < kLeastWeight)
         return History(vec3(0.0), vec2(0.0), 0.0, history.reason);
     history.color /= weightSum;
@@ -119,6 +147,8 @@ vec3 clampToNeighborhood(vec3 color, ivec2 p) {
         }
     }
     vec3 reach = params.clampSigmas * sqrt(squares / max(count, 1.0));
+    NOTE(clampLow, mean - reach);
+    NOTE(clampHigh, mean + reach);
     return count == 0.0 ? color : clamp(color, mean - reach, mean + reach);
 }
 
@@ -141,7 +171,9 @@ float lambdaOfRange(ivec2 p, float historyLuminance) {
         weightSum += weight;
     }
     range /= max(weightSum, 1e-6);
+    NOTE(range, range);
     float outside = max(0.0, max(range.x - historyLuminance, historyLuminance - range.y));
+    NOTE(outside, outside);
     return min(1.0, params.percentileSlope * outside / (range.y - range.x + 1e-4));
 }
 
@@ -151,11 +183,17 @@ float lambdaOf(ivec2 s) {
 
 float lambdaOfStrata(ivec2 p) {
     ivec2 s = p / int(kStratumSize);
+    NOTE(lambdaStratum, s);
     if (params.lambdaFetch == kLambdaMax) {
         float largest = 0.0;
         for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                largest = max(largest, lambdaOf(s + ivec2(x, y)));
+            for (int x = -1; x <= 1; ++x) {
+                float l = lambdaOf(s + ivec2(x, y));
+                NOTE(lambdaStratum, l > lambdaOf(findings.lambdaStratum)
+                                        ? clamp(s + ivec2(x, y), ivec2(0), frame.strata - 1)
+                                        : findings.lambdaStratum);
+                largest = max(largest, l);
+            }
         return largest;
     }
     if (params.lambdaFetch == kLambdaBilinear) {
@@ -189,20 +227,21 @@ float nextSamples(float samples, float alpha, float l) {
 }
 
 void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 p = texelToCompute();
     if (any(greaterThanEqual(p, frame.size)))
         return;
     vec4 guide = fetch(guides, p);
     if (guide.w == 0.0) {
-        imageStore(accumulated, p, vec4(0.0));
-        imageStore(moments, p, vec4(0.0));
-        imageStore(control, p, vec4(0.0));
+        store(p, vec4(0.0), vec4(0.0), vec4(0.0));
         return;
     }
 
     vec4 current = fetch(raw, p);
     vec2 currentMoments = vec2(current.a, current.a * current.a);
     History history = fetchHistory(p, guide.xyz);
+    NOTE(fetchedColor, history.color);
+    NOTE(fetchedMoments, history.moments);
+    NOTE(fetchedSamples, history.samples);
 
     bool hasHistory = history.samples > 0.0;
     float historyLuminance = hasHistory ? luminance(history.color) : 0.0;
@@ -217,6 +256,9 @@ void main() {
         l = 0.0;
     }
     float leastWeight = 1.0 / (history.samples + 1.0);
+    NOTE(usedColor, history.color);
+    NOTE(usedSamples, history.samples);
+    NOTE(leastWeight, leastWeight);
     float alpha = (1.0 - l) * max(params.alpha, leastWeight) + l;
     float alphaMoments = (1.0 - l) * max(params.alphaMoments, leastWeight) + l;
     if (!hasHistory)
@@ -225,7 +267,6 @@ void main() {
     vec3 color = (1.0 - alpha) * history.color + alpha * current.rgb;
     vec2 blended = (1.0 - alphaMoments) * history.moments + alphaMoments * currentMoments;
     float samples = nextSamples(history.samples, alpha, l);
-    imageStore(accumulated, p, vec4(color, historyLuminance));
-    imageStore(moments, p, vec4(blended, samples, 0.0));
-    imageStore(control, p, vec4(fetchedLambda, alpha, samples, float(history.reason)));
+    store(p, vec4(color, historyLuminance), vec4(blended, samples, 0.0),
+          vec4(fetchedLambda, alpha, samples, float(history.reason)));
 }

@@ -25,15 +25,56 @@ struct ProbeParams {
 const uint kHistoryBins = 8u;
 const uint kFateBins = 16u;
 
-// Pixels that a history is interpolated between, and texels written for each: its visibility, its
-// guides and its moments, the latter two as bits. The column after them begins with the raw signal
-// that the gradient sample had in the frame before, as bits.
-const int kHistoryTaps = 4;
-const int kHistoryTapTexels = 3;
+// What a pass finds at one texel where it is compiled with INSPECT; see shaders/lib/inspect.glsl.
+// What it does not come to compute there stays 0.
 
-struct HistoryTapsParams {
-    ivec2 pixel; // whose surface it is
-    ivec2 unused0;
+// One of the four pixels of the frame before that a history is interpolated between. The tests are
+// in the order of the members, and none is made after one that failed.
+struct HistoryTap {
+    ivec2 pixel;
+    float weight;  // bilinear; the four sum to 1
+    int reason;    // kHistory...
+    uint instance; // seen there
+    float depth;   // seen there, metres
+    float cosine;  // between the normal seen there and that of the surface
+    float unused0;
+};
+
+const int kHistoryTaps = 4;
+
+// Of denoise/temporal.comp at a pixel.
+struct TemporalFindings {
+    ivec2 texel;   // whose they are
+    vec2 position; // of its surface in the frame before, pixels, their centers at integers
+    HistoryTap taps[kHistoryTaps]; // in the order (0, 0), (1, 0), (0, 1), (1, 1)
+    float depth;                   // of its surface in the frame before, metres
+    float depthTolerance;          // metres
+    float validWeight;             // B: of the taps that passed all tests
+    float leastWeight;             // 1 / (N + 1), N as used
+    vec3 fetchedColor;             // of the history, before it is clamped
+    float fetchedSamples;          // N, before it is cut
+    vec2 fetchedMoments;
+    ivec2 lambdaStratum; // the own one, or where lambda is the largest
+    vec2 range;          // low and high percentile of the raw luminance around
+    float outside;       // how far the history is outside that range
+    float unused0;
+    vec3 clampLow; // bounds of the color
+    float unused1;
+    vec3 clampHigh;
+    float unused2;
+    vec3 usedColor;    // of the history, as it is blended
+    float usedSamples; // N, as it is blended
+    vec4 accumulated;  // the results, as in the images of that name
+    vec4 moments;
+    vec4 control;
+};
+
+// Of denoise/gradient.comp at a stratum.
+struct GradientFindings {
+    ivec2 texel;   // the stratum
+    float before;  // luminance of the stratum's sample in the frame before
+    float now;     // and in this one
+    vec4 gradient; // the result, as in the image of that name
 };
 
 struct DifferenceParams {

@@ -16,19 +16,19 @@ namespace afterglow::test {
 inline constexpr glm::ivec2 kInspectedSize{61, 37};
 
 /// Reads the facts of a pixel of the last frame, and waits for them.
-inline PixelFacts pixelFacts(Renderer& renderer, std::size_t state, const FrameSettings& settings,
-                             glm::ivec2 pixel, std::size_t signal = 0) {
-    PixelQuery query(testShaders());
+inline PixelFacts pixelFacts(Renderer& renderer, std::size_t state, glm::ivec2 pixel,
+                             std::size_t signal = 0, ShaderLibrary& shaders = testShaders()) {
+    PixelQuery query(shaders);
     PixelReadback readback;
-    query.ask(renderer, state, settings, pixel, signal, readback);
+    query.ask(renderer, state, pixel, signal, readback);
     readback.finish();
     return query.answer(readback);
 }
 
-inline Inspection inspect(Renderer& renderer, std::size_t state, const FrameSettings& settings,
-                          glm::ivec2 pixel, std::size_t signal = 0) {
-    return inspectionOf(pixelFacts(renderer, state, settings, pixel, signal), renderer.scene(),
-                        state, signal);
+inline Inspection inspect(Renderer& renderer, std::size_t state, glm::ivec2 pixel,
+                          std::size_t signal = 0) {
+    return inspectionOf(pixelFacts(renderer, state, pixel, signal), renderer.scene(), state,
+                        signal);
 }
 
 inline const InspectedValue* find(const Inspection& inspection, std::string_view group,
@@ -67,8 +67,9 @@ inline Settings withSamples(Filter filter, SamplePlacement placement) {
 
 /// Frames of a scene in which all moves: its bodies, the camera, and the light goes out.
 struct InspectedScene {
-    explicit InspectedScene(std::string_view scene, glm::ivec2 size = kInspectedSize)
-        : renderer(testShaders(), glInfo(testContext())) {
+    explicit InspectedScene(std::string_view scene, glm::ivec2 size = kInspectedSize,
+                            ShaderLibrary& shaders = testShaders())
+        : renderer(shaders, glInfo(testContext())) {
         renderer.setScene(makeProceduralScene(scene));
         renderer.resize(size);
         camera = cameraAt(renderer.scene(), poseAt(renderer.scene(), 0.0));

@@ -11,15 +11,15 @@
 using namespace afterglow;
 using namespace afterglow::test;
 
-TEST_CASE("the story names the reason for which a history was lost, and the fate of a sample") {
+TEST_CASE("the story names the reason for which a history was rejected, and the fate of a sample") {
     const GlCheck noGlMessages;
     const std::map<int, std::string_view> reasons{
         {gpu::kHistoryKept, "The history is worth"},
         {gpu::kHistoryNone, "There is no history: there was no frame before."},
-        {gpu::kHistoryOffScreen, "lost: the surface was outside the picture."},
-        {gpu::kHistoryInstance, "lost: another instance was seen there."},
-        {gpu::kHistoryDepth, "lost: the same instance was seen there, at another depth."},
-        {gpu::kHistoryNormal, "lost: the surface seen there faced another way."}};
+        {gpu::kHistoryOffScreen, "rejected: the surface was outside the picture."},
+        {gpu::kHistoryInstance, "rejected: another instance was seen there."},
+        {gpu::kHistoryDepth, "rejected: the same instance was seen there, at another depth."},
+        {gpu::kHistoryNormal, "rejected: the surface seen there faced another way."}};
     const std::map<std::uint32_t, std::string_view> fates{
         {gpu::kFateNone, "There was no frame before, so no stratum has a gradient sample."},
         {gpu::kFateCarried, "offered was carried to stratum ("},
@@ -54,7 +54,7 @@ TEST_CASE("the story names the reason for which a history was lost, and the fate
                 const bool lacksSample = sample.y == 0 && ++told[100 + int(sample.w)] <= 20;
                 if (!lacksSample && ++told[reason] > 20)
                     continue;
-                const Inspection inspection = inspect(bench.renderer, 0, settings, p);
+                const Inspection inspection = inspect(bench.renderer, 0, p);
                 CAPTURE(p.x);
                 CAPTURE(p.y);
                 CAPTURE(storyText(inspection));
@@ -103,16 +103,18 @@ TEST_CASE("a gradient sample is followed from its pixel of the frame before to w
         for (const glm::ivec2 p : pixelsOf(kInspectedSize, 1)) {
             if (p.x % 3 != 1 || p.y % 3 != 1)
                 continue;
-            const PixelFacts facts = pixelFacts(bench.renderer, 0, settings, p);
+            const PixelFacts facts = pixelFacts(bench.renderer, 0, p);
             if (!facts.sample)
                 continue;
             const CarriedSample& sample = *facts.sample;
             REQUIRE(sample.landing / 3 == p / 3);
-            CHECK(sample.before == rawBefore(sample.source).a);
-            REQUIRE(sample.now);
+            REQUIRE(facts.gradient);
+            const auto [stratum, before, now, gradient] = *facts.gradient;
+            CHECK(stratum == p / 3);
+            CHECK(before == rawBefore(sample.source).a);
             // Half the light, the same random numbers; surroundings stay as they are.
-            CHECK(*sample.now <= sample.before + 1e-6f);
-            const Inspection there = inspect(bench.renderer, 0, settings, sample.landing);
+            CHECK(now <= before + 1e-6f);
+            const Inspection there = inspect(bench.renderer, 0, sample.landing);
             CAPTURE(storyText(there));
             CHECK(tells(there, "came from pixel (" + std::to_string(sample.source.x) + ", " +
                                    std::to_string(sample.source.y) + ") of the frame before"));
@@ -121,7 +123,7 @@ TEST_CASE("a gradient sample is followed from its pixel of the frame before to w
             CHECK(tells(there, "is at the same place") == (sample.source == sample.landing));
             moved += sample.source != sample.landing;
             if (merged) {
-                CHECK(*sample.now == raw(sample.landing).a);
+                CHECK(now == raw(sample.landing).a);
                 const std::uint32_t seed = seedsBefore(sample.source);
                 CHECK(find(there, "raw signal", "seed")->numbers ==
                       std::vector{double(seed & 127), double(seed >> 7 & 127), double(seed >> 14)});
@@ -131,7 +133,7 @@ TEST_CASE("a gradient sample is followed from its pixel of the frame before to w
                       std::vector{double(sample.landing.x), double(sample.landing.y), 2.0});
             }
             const double delta = find(there, "gradient sample", "delta, measured")->numbers[0];
-            CHECK(delta == double(*sample.now - sample.before));
+            CHECK(delta == double(now - before));
             ++followed;
         }
         CHECK(followed > 60); // of 21 x 13
@@ -149,18 +151,18 @@ TEST_CASE(
     int told[4] = {};
     const auto look = [&](int which, auto expect) {
         for (const glm::ivec2 p : pixelsOf(kInspectedSize, 3)) {
-            const PixelFacts facts = pixelFacts(sequence.renderer(), 0, sequence.settings, p);
+            const PixelFacts facts = pixelFacts(sequence.renderer(), 0, p);
             if (!facts.sample || !facts.isSurface())
                 continue;
-            const Inspection inspection = inspect(sequence.renderer(), 0, sequence.settings, p);
+            const Inspection inspection = inspect(sequence.renderer(), 0, p);
             CAPTURE(storyText(inspection));
             told[which] += expect(facts, inspection);
         }
     };
     look(0, [](const PixelFacts& facts, const Inspection& inspection) {
-        const bool lit = facts.sample->before > 0.0f;
+        const bool lit = facts.gradient->before > 0.0f;
         CHECK(tells(inspection, lit ? "both times: nothing changed." : "It saw no light"));
-        CHECK(tells(inspection, facts.gradient->reconstructed.y > 1e-4f
+        CHECK(tells(inspection, facts.image("gradient_max") > 1e-4f
                                     ? "= 0, both filtered over the strata around."
                                     : "is not above its floor of 0.0001."));
         return lit;
@@ -168,7 +170,7 @@ TEST_CASE(
     sequence.light("key").on = false;
     sequence.next();
     look(1, [](const PixelFacts& facts, const Inspection& inspection) {
-        const bool lit = facts.sample->before > 0.0f;
+        const bool lit = facts.gradient->before > 0.0f;
         if (lit) {
             CHECK(tells(inspection, "It saw 0 where it had seen "));
             CHECK(tells(inspection, ", 100 % of Delta."));
@@ -190,7 +192,7 @@ TEST_CASE(
         CHECK(tells(inspection, "lambda of this stratum is set to 0.25 by hand"));
         CHECK(tells(inspection, "alpha = (1 - lambda) max(least, 1 / (N + 1)) + lambda = (1 - "
                                 "0.25) max(0.2, 1 / ("));
-        return facts.lambda == 0.25f;
+        return facts.temporal->control.x == 0.25f;
     });
     for (const int count : told)
         CHECK(count > 50);
@@ -209,12 +211,10 @@ TEST_CASE("every filter explains its alpha in its own way") {
     }
     int cuts = 0, outside = 0, clamped = 0, looked = 0;
     for (const glm::ivec2 p : pixelsOf(kInspectedSize, 4)) {
-        if (!pixelFacts(bench.renderer, 0, bench.frameSettings, p).isSurface())
+        if (!pixelFacts(bench.renderer, 0, p).isSurface())
             continue;
         ++looked;
-        const auto at = [&](std::size_t i) {
-            return inspect(bench.renderer, i, bench.frameSettings, p);
-        };
+        const auto at = [&](std::size_t i) { return inspect(bench.renderer, i, p); };
         const Inspection confidence = at(0), percentile = at(1), clamp = at(2), none = at(3);
         CAPTURE(storyText(confidence) + storyText(percentile) + storyText(clamp));
         const auto number = [](const Inspection& inspection, std::string_view name) {

@@ -57,8 +57,12 @@ struct BarrierWatch::Overrides {
     STAND_IN(dispatch, PFNGLDISPATCHCOMPUTEPROC, DispatchCompute, (GLuint x, GLuint y, GLuint z),
              (x, y, z), w.useProgram())
     STAND_IN(barrier, PFNGLMEMORYBARRIERPROC, MemoryBarrier, (GLbitfield bits), (bits),
-             for (auto& [texture, missing]
-                  : w.missing_) missing &= ~bits)
+             for (auto* const all
+                  : {&w.missing_, &w.missingOfBuffer_}) for (auto& [object, missing]
+                                                             : *all) missing &= ~bits)
+    STAND_IN(bindBlock, PFNGLBINDBUFFERBASEPROC, BindBufferBase,
+             (GLenum target, GLuint index, GLuint buffer), (target, index, buffer),
+             if (target == GL_SHADER_STORAGE_BUFFER) w.storage_[index] = buffer)
     STAND_IN(
         deleteTextures, PFNGLDELETETEXTURESPROC, DeleteTextures,
         (GLsizei count, const GLuint* textures), (count, textures),
@@ -70,9 +74,13 @@ struct BarrierWatch::Overrides {
                 image.texture = image.texture == textures[i] ? 0 : image.texture;
         })
 
-    STAND_IN(deleteBuffers, PFNGLDELETEBUFFERSPROC, DeleteBuffers,
-             (GLsizei count, const GLuint* buffers), (count, buffers),
-             for (GLsizei i = 0; i < count; ++i) w.viewOfBuffer_.erase(buffers[i]))
+    STAND_IN(
+        deleteBuffers, PFNGLDELETEBUFFERSPROC, DeleteBuffers,
+        (GLsizei count, const GLuint* buffers), (count, buffers),
+        for (GLsizei i = 0; i < count; ++i) {
+            w.viewOfBuffer_.erase(buffers[i]);
+            w.missingOfBuffer_.erase(buffers[i]);
+        })
     STAND_IN(writeBuffer, PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData,
              (GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data),
              (buffer, offset, size, data),
@@ -81,6 +89,10 @@ struct BarrierWatch::Overrides {
              (GLuint buffer, GLintptr offset, GLsizeiptr size, void* data),
              (buffer, offset, size, data),
              w.useBuffer(buffer, GL_BUFFER_UPDATE_BARRIER_BIT, "reading back"))
+    STAND_IN(copyBuffer, PFNGLCOPYNAMEDBUFFERSUBDATAPROC, CopyNamedBufferSubData,
+             (GLuint from, GLuint to, GLintptr fromOffset, GLintptr toOffset, GLsizeiptr size),
+             (from, to, fromOffset, toOffset, size),
+             w.useBuffer(from, GL_BUFFER_UPDATE_BARRIER_BIT, "copying"))
 
     STAND_IN(attach, PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture,
              (GLuint framebuffer, GLenum point, GLuint texture, GLint level),
@@ -172,7 +184,18 @@ const std::vector<BarrierWatch::Slot>& BarrierWatch::slotsOf(GLuint program) {
         if (!isImage(type) && !isSampler(type))
             continue;
         glGetUniformiv(program, glGetUniformLocation(program, name.data()), &unit);
-        found->second.push_back({name.data(), isImage(type), unit});
+        found->second.push_back({name.data(), isImage(type) ? Kind::Image : Kind::Sampler, unit});
+    }
+    glGetProgramInterfaceiv(program, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    for (GLint i = 0; i < count; ++i) {
+        std::array<char, 128> name{};
+        glGetProgramResourceName(program, GL_SHADER_STORAGE_BLOCK, GLuint(i), GLsizei(name.size()),
+                                 nullptr, name.data());
+        const GLenum wanted = GL_BUFFER_BINDING;
+        GLint binding = 0;
+        glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, GLuint(i), 1, &wanted, 1, nullptr,
+                               &binding);
+        found->second.push_back({name.data(), Kind::Storage, binding});
     }
     return found->second;
 }
@@ -192,6 +215,19 @@ void BarrierWatch::useBuffer(GLuint buffer, GLbitfield bit, const std::string& h
     const auto view = viewOfBuffer_.find(buffer);
     if (view != viewOfBuffer_.end())
         use(view->second, bit, how + " the buffer of");
+    const auto missing = missingOfBuffer_.find(buffer);
+    if (missing != missingOfBuffer_.end() && (missing->second & bit))
+        fault(how + " buffer " + labelOf(GL_BUFFER, buffer) + " without its barrier");
+}
+
+// Every storage block counts as read and written.
+void BarrierWatch::useStorage(const Slot& slot) {
+    const std::string in = "in " + programName() + ": ";
+    const GLuint buffer = storage_[GLuint(slot.unit)];
+    if (buffer == 0)
+        return fault(in + slot.name + " is not bound");
+    useBuffer(buffer, GL_SHADER_STORAGE_BARRIER_BIT, in + "using");
+    missingOfBuffer_[buffer] = ~GLbitfield(0);
 }
 
 void BarrierWatch::useProgram() {
@@ -200,18 +236,22 @@ void BarrierWatch::useProgram() {
     std::set<GLuint> sampled, written;
     std::multiset<GLuint> asImage;
     for (const Slot& slot : slotsOf(program_)) {
-        const Image image = slot.isImage ? images_[GLuint(slot.unit)] : Image{};
-        const GLuint texture = slot.isImage ? image.texture : sampled_[GLuint(slot.unit)];
+        if (slot.kind == Kind::Storage) {
+            useStorage(slot);
+            continue;
+        }
+        const bool isImage = slot.kind == Kind::Image;
+        const Image image = isImage ? images_[GLuint(slot.unit)] : Image{};
+        const GLuint texture = isImage ? image.texture : sampled_[GLuint(slot.unit)];
         if (texture == 0) {
             fault(in + slot.name + " is not bound");
             continue;
         }
-        use(texture,
-            slot.isImage ? GL_SHADER_IMAGE_ACCESS_BARRIER_BIT : GL_TEXTURE_FETCH_BARRIER_BIT,
-            in + (slot.isImage ? "image access to" : "fetching"));
-        if (slot.isImage && image.access != GL_READ_ONLY)
+        use(texture, isImage ? GL_SHADER_IMAGE_ACCESS_BARRIER_BIT : GL_TEXTURE_FETCH_BARRIER_BIT,
+            in + (isImage ? "image access to" : "fetching"));
+        if (isImage && image.access != GL_READ_ONLY)
             written.insert(texture);
-        if (slot.isImage)
+        if (isImage)
             asImage.insert(texture);
         else
             sampled.insert(texture);

@@ -4,6 +4,7 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/readback.h"
 #include "tests/driver/barrier_watch.h"
 #include "tests/driver/poison.h"
 #include "tests/driver/rewritten_shaders.h"
@@ -140,7 +141,7 @@ TEST_CASE("a barrier without one of its bits is found, with the way in which it 
     }
 }
 
-TEST_CASE("framebuffers, buffers of texels and copies are watched as well") {
+TEST_CASE("framebuffers, buffers of texels, storage blocks and copies are watched as well") {
     const GlCheck noGlMessages;
     GpuTexture image("image", PixelFormat::RGBA32F, {8, 8});
     GpuTexture other("other", PixelFormat::RGBA32F, {8, 8});
@@ -149,6 +150,9 @@ TEST_CASE("framebuffers, buffers of texels and copies are watched as well") {
                                      "void main() { imageStore(target, ivec2(0), vec4(1.0)); }");
     ComputeProgram fill = programOf("layout(rgba32ui) writeonly uniform uimageBuffer target;\n"
                                     "void main() { imageStore(target, 0, uvec4(1u)); }");
+    GpuBuffer block("block", 16);
+    ComputeProgram store = programOf("layout(std430) buffer Block { vec4 value; };\n"
+                                     "void main() { value += 1.0; }");
     const auto faultOf = [&](GLbitfield missing, const auto& commands) {
         const BarrierWatch watch;
         const WeakBarriers weak(missing);
@@ -168,12 +172,25 @@ TEST_CASE("framebuffers, buffers of texels and copies are watched as well") {
         fill.dispatch({8, 8}, {}, {{"target", texels}});
         texels.read<glm::uvec4>();
     };
+    const auto storeTwice = [&] {
+        store.dispatch({8, 8}, {}, {{"Block", block}});
+        store.dispatch({8, 8}, {}, {{"Block", block}});
+    };
+    const auto copyBlock = [&] {
+        store.dispatch({8, 8}, {}, {{"Block", block}});
+        PixelReadback readback;
+        readback.add<glm::vec4>(block);
+    };
     const auto copyImage = [&] {
         write.dispatch({8, 8}, {}, {{"target", image}});
         other.copyFrom(image);
     };
-    for (const auto& commands :
-         {std::function<void()>(clearAttached), {writeBuffer}, {readBuffer}, {copyImage}})
+    for (const auto& commands : {std::function<void()>(clearAttached),
+                                 {writeBuffer},
+                                 {readBuffer},
+                                 {storeTwice},
+                                 {copyBlock},
+                                 {copyImage}})
         CHECK(faultOf(0, commands) == "");
     CHECK(faultOf(GL_FRAMEBUFFER_BARRIER_BIT, clearAttached) ==
           "clearing the attachment texture 'image' without its barrier\n");
@@ -181,6 +198,10 @@ TEST_CASE("framebuffers, buffers of texels and copies are watched as well") {
           "writing the buffer of texture 'texels' without its barrier\n");
     CHECK(faultOf(GL_BUFFER_UPDATE_BARRIER_BIT, readBuffer) ==
           "reading back the buffer of texture 'texels' without its barrier\n");
+    CHECK(faultOf(GL_SHADER_STORAGE_BARRIER_BIT, storeTwice) ==
+          "in 'test program': using buffer 'block' without its barrier\n");
+    CHECK(faultOf(GL_BUFFER_UPDATE_BARRIER_BIT, copyBlock) ==
+          "copying buffer 'block' without its barrier\n");
     CHECK(faultOf(GL_TEXTURE_UPDATE_BARRIER_BIT, copyImage) ==
           "copying from texture 'image' without its barrier\n");
 }

@@ -1,8 +1,12 @@
 // The resources that the shaders use, against the minima that OpenGL 4.5 promises.
 
+#include "renderer/filters/svgf_filter.h"
+#include "renderer/pipeline/renderer.h"
+#include "renderer/scene/procedural.h"
 #include "tests/driver/program_needs.h"
 #include "tests/driver/workload.h"
 #include "tests/support/gl_fixture.h"
+#include "tests/support/sequence.h"
 
 #include <doctest/doctest.h>
 
@@ -45,6 +49,32 @@ TEST_CASE("no program needs more than the least that OpenGL 4.5 promises") {
     CHECK(most.samplers == 11);             // lighting
     CHECK(most.images == 6);                // surface
     CHECK(most.sharedBytes == 3 * 64 * 16); // probe
+}
+
+TEST_CASE("what inspects a pass is compiled when a pixel is first inspected, and once") {
+    const GlCheck noGlMessages;
+    ShaderLibrary shaders = freshShaders();
+    const Settings settings = settingsOf(Filter::Asvgf);
+    renderFilter(shaders, settings);
+    const LinkedPrograms programs;
+    Renderer renderer(shaders, glInfo(testContext()));
+    renderer.setScene(makeProceduralScene("tiny"));
+    renderer.resize({19, 11});
+    TemporalPass temporal(shaders);
+    GradientPass gradient(shaders);
+    FrameInput input;
+    input.camera = cameraAt(renderer.scene(), poseAt(renderer.scene(), 0.0));
+    renderer.render(input, settings);
+    CHECK(programs.all().empty());
+    auto [context, in, own] = renderer.filterCall(0, 0);
+    for (int i = 0; i < 2; ++i) {
+        PixelReadback readback;
+        temporal.inspect(context, svgf::temporalInputs(in, own), {}, {3, 4}, readback);
+        CHECK(programs.all().size() == 1);
+    }
+    PixelReadback readback;
+    gradient.inspect(context, svgf::gradientInputs(in), {}, {1, 2}, readback);
+    CHECK(programs.all().size() == 2);
 }
 
 TEST_CASE("a program that needs more than OpenGL 4.5 promises is found") {

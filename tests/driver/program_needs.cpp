@@ -88,6 +88,7 @@ ProgramNeeds needsOf(GLuint program, const std::vector<GLuint>& shaders) {
     needs.name = label.data();
     addUniforms(needs, program);
     needs.uniformBlocks = activeResources(program, GL_UNIFORM_BLOCK);
+    needs.storageBlocks = activeResources(program, GL_SHADER_STORAGE_BLOCK);
     for (GLuint i = 0; i < GLuint(needs.uniformBlocks); ++i)
         needs.largestBlock = std::max(needs.largestBlock,
                                       property(program, GL_UNIFORM_BLOCK, i, GL_BUFFER_DATA_SIZE));
@@ -160,7 +161,9 @@ std::string beyondMinima(const ProgramNeeds& needs) {
     atMost("samplers in a stage", needs.samplers, 16); // MAX_COMPUTE_TEXTURE_IMAGE_UNITS
     // MAX_IMAGE_UNITS, MAX_COMPUTE_IMAGE_UNIFORMS; MAX_VERTEX_IMAGE_UNIFORMS is 0.
     atMost("images", needs.images, needs.isCompute ? 8 : 0);
-    atMost("uniform blocks", needs.uniformBlocks, 14);             // MAX_COMPUTE_UNIFORM_BLOCKS
+    atMost("uniform blocks", needs.uniformBlocks, 14); // MAX_COMPUTE_UNIFORM_BLOCKS
+    // MAX_COMPUTE_SHADER_STORAGE_BLOCKS; MAX_VERTEX_SHADER_STORAGE_BLOCKS is 0.
+    atMost("storage blocks", needs.storageBlocks, needs.isCompute ? 8 : 0);
     atMost("bytes in a uniform block", needs.largestBlock, 16384); // MAX_UNIFORM_BLOCK_SIZE
     atMost("components of uniforms", needs.looseUniforms,
            needs.isCompute ? 512 : 1024); // MAX_COMPUTE_, MAX_VERTEX_UNIFORM_COMPONENTS

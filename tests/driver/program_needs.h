@@ -14,8 +14,9 @@ struct ProgramNeeds {
     bool isCompute = false;
     int samplers = 0, images = 0, texelBuffers = 0; ///< texel buffers are samplers or images too
     int uniformBlocks = 0, largestBlock = 0;        ///< number, bytes
-    int looseUniforms = 0;                          ///< components outside of blocks
-    int threads = 0, longestEdge = 0;               ///< of a workgroup
+    int storageBlocks = 0;
+    int looseUniforms = 0;            ///< components outside of blocks
+    int threads = 0, longestEdge = 0; ///< of a workgroup
     int sharedBytes = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "tests/driver/workload.h"
 
 #include "renderer/base/hash.h"
+#include "renderer/filters/svgf_filter.h"
 #include "renderer/passes/debug_view_pass.h"
 #include "renderer/passes/difference_pass.h"
 #include "renderer/passes/probe_pass.h"
@@ -150,6 +151,35 @@ void renderReferences(Desk& desk) {
     desk.note("display", desk.renderer.showReference({&gray, 1}, settings));
 }
 
+void inspectFrame(Desk& desk, ShaderLibrary& shaders) {
+    TemporalPass temporal(shaders);
+    GradientPass gradient(shaders);
+    for (const SamplePlacement placement : {SamplePlacement::Merged, SamplePlacement::Extra}) {
+        const Settings settings = withPlacement(Filter::Asvgf, placement);
+        for (const std::uint32_t frame : {7u, 8u})
+            desk.render(frame, settings, {{0, settings}});
+        auto [context, in, own] = desk.renderer.filterCall(0, 0);
+        const SvgfPlan plan = makePlan(settings);
+        for (const glm::ivec2 pixel : {glm::ivec2(0), glm::ivec2(30, 20), kSize - 1}) {
+            PixelReadback readback;
+            const auto found = temporal.inspect(context, svgf::temporalInputs(in, own),
+                                                plan.temporal, pixel, readback);
+            const auto change = gradient.inspect(context, svgf::gradientInputs(in), plan.gradient,
+                                                 pixel / 3, readback);
+            readback.finish();
+            Hash hash;
+            const auto add = [&](const auto& values) {
+                const auto bytes = std::as_bytes(std::span(&values, 1));
+                hash.addList(
+                    std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+            };
+            add(readback.pixel(found));
+            add(readback.pixel(change));
+            desk.note("inspected", hash.hex());
+        }
+    }
+}
+
 void lookAtFrame(Desk& desk, ShaderLibrary& shaders) {
     desk.chapter = "instruments";
     const Settings settings = settingsOf(Filter::Asvgf);
@@ -195,6 +225,7 @@ void lookAtFrame(Desk& desk, ShaderLibrary& shaders) {
     debugView.run(context, surfaces.visibility, view,
                   {gpu::kMapNumber, 0, 1, 0, 0.0f, 1.0f, 0.0f, 0.0f});
     desk.note("view of instances", view);
+    inspectFrame(desk, shaders);
 }
 
 } // namespace

@@ -33,6 +33,8 @@ std::vector<Variant> allVariants() {
         std::vector<Defines> defines{{}};
         if (name.find("atrous") != std::string::npos)
             defines = {{{"KERNEL_RADIUS", "1"}}, {{"KERNEL_RADIUS", "2"}}};
+        if (name == "denoise/temporal.comp" || name == "denoise/gradient.comp")
+            defines = {{}, {{"INSPECT", "1"}}};
         if (name == "lighting/lighting.comp")
             defines = {{{"SHADOWS", "1"}},
                        {{"AMBIENT_OCCLUSION", "1"}},

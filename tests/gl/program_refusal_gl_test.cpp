@@ -139,8 +139,29 @@ void main() { imageStore(result, ivec2(gl_GlobalInvocationID.xy), ofFrame + ofPa
                 "RGBA32F");
     CHECK(messageOf<std::logic_error>([&] {
               program.dispatch({8, 8}, glm::vec4(1), {{"Frame", first}}, {{"result", first}});
-          }) ==
-          "frame.comp declares result as image2D, but was given a buffer with a uniform block");
+          }) == "frame.comp declares result as image2D, but was given a buffer with a block");
+}
+
+TEST_CASE("a storage block is written under its name") {
+    testContext();
+    const GlCheck check;
+    GpuBuffer numbers("numbers", 16);
+    const GpuTexture texture("texture", PixelFormat::RGBA32F, {8, 8});
+    ComputeProgram program = compile("store.comp", R"(
+layout(std430) buffer Numbers { vec4 numbers; };
+void main() { if (gl_GlobalInvocationID.xy == uvec2(0)) numbers += vec4(1, 2, 3, 4); }
+)");
+    for (const float times : {1.0f, 2.0f}) {
+        program.dispatch({8, 8}, {}, {{"Numbers", numbers}});
+        CHECK(numbers.read<glm::vec4>()[0] == times * glm::vec4(1, 2, 3, 4));
+    }
+    CHECK(messageOf<std::logic_error>([&] {
+              program.dispatch({8, 8}, {}, {});
+          }) == "store.comp uses Numbers but was not given Numbers");
+    CHECK(messageOf<std::logic_error>([&] {
+              program.dispatch({8, 8}, {}, {{"Numbers", texture}});
+          }) == "store.comp declares Numbers as a storage block, but was given a texture of format "
+                "RGBA32F");
 }
 
 TEST_CASE("a shader that does not compile is an error at its own line") {

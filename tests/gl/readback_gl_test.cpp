@@ -1,6 +1,7 @@
 #include "renderer/gl/readback.h"
 #include "tests/support/gl_fixture.h"
 
+#include <array>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -140,6 +141,26 @@ TEST_CASE("numbers that are none are read back as they are") {
     CHECK(read.y == Limits::infinity());
     CHECK(read.z == -Limits::infinity());
     CHECK(read.w == 3e38f);
+}
+
+TEST_CASE("the value of a buffer is read back as it was when it was asked for") {
+    testContext();
+    const GlCheck check;
+    struct Pair {
+        glm::vec4 a;
+        glm::ivec2 b, c;
+    };
+    GpuBuffer buffer("buffer", sizeof(Pair));
+    const Pair before{{1, 2, 3, 4}, {5, 6}, {7, 8}}, after{};
+    buffer.write(std::array{before});
+    PixelReadback readback;
+    const auto region = readback.add<Pair>(buffer);
+    buffer.write(std::array{after});
+    readback.finish();
+    CHECK(std::memcmp(&readback.pixels(region)[0], &before, sizeof(Pair)) == 0);
+    CHECK_THROWS_AS(readback.add<Pair>(buffer), std::logic_error);
+    readback.clear();
+    CHECK_THROWS_AS(readback.add<glm::mat4>(buffer), std::logic_error);
 }
 
 TEST_CASE("what cannot be read back is refused, and so is reading too early") {

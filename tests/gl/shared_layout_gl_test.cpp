@@ -38,6 +38,10 @@ struct SharedStruct {
     }()
 #define MEMBER(name)                                                                               \
     { #name, offsetof(S, name) }
+#define TAP(i)                                                                                     \
+    MEMBER(taps[i].pixel), MEMBER(taps[i].weight), MEMBER(taps[i].reason),                         \
+        MEMBER(taps[i].instance), MEMBER(taps[i].depth), MEMBER(taps[i].cosine),                   \
+        MEMBER(taps[i].unused0)
 
 // Add a struct here when it is added to shaders/shared; a member that is missing fails the test.
 const std::vector<SharedStruct>& sharedStructs() {
@@ -63,8 +67,19 @@ const std::vector<SharedStruct>& sharedStructs() {
                       MEMBER(pixelsPerTexel), MEMBER(isFloatBits), MEMBER(low), MEMBER(high),
                       MEMBER(unused0), MEMBER(unused1)),
         SHARED_STRUCT(ProbeParams, "shared/instrument_params.h", MEMBER(first), MEMBER(end)),
-        SHARED_STRUCT(HistoryTapsParams, "shared/instrument_params.h", MEMBER(pixel),
+        SHARED_STRUCT(HistoryTap, "shared/instrument_params.h", MEMBER(pixel), MEMBER(weight),
+                      MEMBER(reason), MEMBER(instance), MEMBER(depth), MEMBER(cosine),
                       MEMBER(unused0)),
+        SHARED_STRUCT(TemporalFindings, "shared/instrument_params.h", MEMBER(texel),
+                      MEMBER(position), TAP(0), TAP(1), TAP(2), TAP(3), MEMBER(depth),
+                      MEMBER(depthTolerance), MEMBER(validWeight), MEMBER(leastWeight),
+                      MEMBER(fetchedColor), MEMBER(fetchedSamples), MEMBER(fetchedMoments),
+                      MEMBER(lambdaStratum), MEMBER(range), MEMBER(outside), MEMBER(unused0),
+                      MEMBER(clampLow), MEMBER(unused1), MEMBER(clampHigh), MEMBER(unused2),
+                      MEMBER(usedColor), MEMBER(usedSamples), MEMBER(accumulated), MEMBER(moments),
+                      MEMBER(control)),
+        SHARED_STRUCT(GradientFindings, "shared/instrument_params.h", MEMBER(texel), MEMBER(before),
+                      MEMBER(now), MEMBER(gradient)),
         SHARED_STRUCT(DifferenceParams, "shared/instrument_params.h", MEMBER(isAbsolute),
                       MEMBER(unused0), MEMBER(unused1), MEMBER(unused2)),
         SHARED_STRUCT(

@@ -65,7 +65,7 @@ Image<glm::vec4> luminanceRanges(const RandomFrame& frame) {
 }
 
 TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, bool historyValid,
-                           const gpu::TemporalParams& params) {
+                           const gpu::TemporalParams& params, TemporalFindings* findings) {
     Stage stage(frame, historyValid);
     const GpuTexture raw = upload("raw", frame.raw);
     const GpuTexture visibility = upload("visibility", frame.visibility);
@@ -81,19 +81,29 @@ TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, boo
     GpuTexture accumulated = output<glm::vec4>("accumulated", frame.size);
     GpuTexture moments = output<glm::vec4>("moments", frame.size);
     GpuTexture control = output<glm::vec4>("control", frame.size);
-    TemporalPass(shaders).run(stage.context,
-                              {.raw = raw,
-                               .visibility = visibility,
-                               .previousVisibility = previousVisibility,
-                               .guides = guides,
-                               .previousGuides = previousGuides,
-                               .slope = slope,
-                               .motion = motion,
-                               .previousColor = previousColor,
-                               .previousMoments = previousMoments,
-                               .lambda = lambda,
-                               .luminanceRange = luminanceRange},
-                              {accumulated, moments, control}, params);
+    const TemporalPass::Inputs in{.raw = raw,
+                                  .visibility = visibility,
+                                  .previousVisibility = previousVisibility,
+                                  .guides = guides,
+                                  .previousGuides = previousGuides,
+                                  .slope = slope,
+                                  .motion = motion,
+                                  .previousColor = previousColor,
+                                  .previousMoments = previousMoments,
+                                  .lambda = lambda,
+                                  .luminanceRange = luminanceRange};
+    TemporalPass pass(shaders);
+    pass.run(stage.context, in, {accumulated, moments, control}, params);
+    if (findings) {
+        PixelReadback readback;
+        std::vector<TemporalPass::Findings::Region> regions;
+        for (int y = 0; y < frame.size.y; ++y)
+            for (int x = 0; x < frame.size.x; ++x)
+                regions.push_back(pass.inspect(stage.context, in, params, {x, y}, readback));
+        readback.finish();
+        for (const auto& region : regions)
+            findings->push_back(readback.pixel(region));
+    }
     return {accumulated.read<glm::vec4>(), moments.read<glm::vec4>(), control.read<glm::vec4>()};
 }
 

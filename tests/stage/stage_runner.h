@@ -3,6 +3,7 @@
 #include "renderer/gl/shader_library.h"
 #include "renderer/passes/frame_context.h"
 #include "shared/denoise_params.h"
+#include "shared/instrument_params.h"
 #include "tests/support/random_frame.h"
 
 namespace afterglow::test {
@@ -19,12 +20,13 @@ Image<glm::vec4> runAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Ker
 struct TemporalImages {
     Image<glm::vec4> accumulated, moments, control;
 };
+using TemporalFindings = std::vector<gpu::TemporalFindings>; ///< of all pixels, row by row
 /// Ranges for runTemporal(), about as wide as the noise of the frame; garbage in tiles that show
 /// background alone.
 Image<glm::vec4> luminanceRanges(const RandomFrame& frame);
 
 TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, bool historyValid,
-                           const gpu::TemporalParams& params);
+                           const gpu::TemporalParams& params, TemporalFindings* findings = nullptr);
 
 Image<glm::vec4> runLuminanceRange(ShaderLibrary& shaders, const RandomFrame& frame,
                                    const gpu::PercentileParams& params);

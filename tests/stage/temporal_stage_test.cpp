@@ -123,3 +123,94 @@ TEST_CASE("the reason for losing history is told exactly") {
         CHECK(lost > 50);
     }
 }
+
+TEST_CASE(
+    "inspected, the temporal pass computes at every pixel the bits that it has in the frame") {
+    const GlCheck noGlMessages;
+    std::vector<gpu::TemporalParams> all;
+    for (const int fetch : {gpu::kLambdaNearest, gpu::kLambdaBilinear, gpu::kLambdaMax}) {
+        all.push_back(kParams);
+        all.back().lambdaFetch = fetch;
+        all.back().historyLaw = fetch; // there are three of both
+    }
+    all.push_back(kParams);
+    all.back().lambdaUse = gpu::kLambdaCuts;
+    all.push_back(kParams);
+    all.back().lambdaSource = gpu::kLambdaFromRange;
+    all.push_back(kParams);
+    all.back().clampRadius = 1;
+    for (const bool historyValid : {true, false})
+        for (const gpu::TemporalParams& params : all) {
+            const RandomFrame frame({61, 37}, 15);
+            TemporalFindings findings;
+            const auto images = runTemporal(testShaders(), frame, historyValid, params, &findings);
+            REQUIRE(findings.size() == 61 * 37);
+            for (std::size_t i = 0; i < findings.size(); ++i) {
+                CAPTURE(i);
+                CHECK(findings[i].texel == glm::ivec2(i % 61, i / 61));
+                CHECK(findings[i].accumulated == images.accumulated.pixels()[i]);
+                CHECK(findings[i].moments == images.moments.pixels()[i]);
+                CHECK(findings[i].control == images.control.pixels()[i]);
+            }
+        }
+}
+
+TEST_CASE("what the temporal pass computes on its way is what the reference finds there") {
+    const GlCheck noGlMessages;
+    const RandomFrame frame({61, 37}, 16);
+    const Image<glm::vec4> ranges = luminanceRanges(frame);
+    const reference::TemporalInputs in{frame.raw,
+                                       frame.visibility,
+                                       frame.previousVisibility,
+                                       frame.guides,
+                                       frame.previousGuides,
+                                       frame.slope,
+                                       frame.motion,
+                                       frame.previousColor,
+                                       frame.previousMoments,
+                                       frame.lambda,
+                                       true,
+                                       &ranges};
+    gpu::TemporalParams params = kParams;
+    params.clampRadius = 1;
+    params.lambdaSource = gpu::kLambdaFromRange;
+    TemporalFindings findings;
+    runTemporal(testShaders(), frame, true, params, &findings);
+    const auto isClose = [](auto a, auto b) {
+        return glm::all(glm::lessThan(glm::abs(glm::dvec3(a) - glm::dvec3(b)), glm::dvec3(2e-5)));
+    };
+    double margin = 1.0;
+    int surfaces = 0, kept = 0, clamped = 0, outside = 0;
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+        CAPTURE(i);
+        const gpu::TemporalFindings& found = findings[i];
+        const glm::ivec2 p = found.texel;
+        if (reference::isBackground(frame.guides(p)) || frame.motion(p).w == 0.0f) {
+            CHECK(found.taps[0].weight + found.taps[3].weight == 0.0f);
+            continue;
+        }
+        ++surfaces;
+        const glm::dvec2 position = glm::clamp(glm::dvec2(p) + glm::dvec2(frame.motion(p)),
+                                               glm::dvec2(-4.0), glm::dvec2(frame.size) + 4.0);
+        CHECK(isClose(glm::dvec3(found.position, 0.0), glm::dvec3(position, 0.0)));
+        CHECK(found.depth == frame.motion(p).z);
+        for (const gpu::HistoryTap& tap : found.taps) {
+            CHECK(tap.reason == reference::judgeTap(in, params, p, tap.pixel, margin));
+            const glm::dvec2 off = glm::abs(glm::dvec2(tap.pixel) - position);
+            CHECK(std::abs(tap.weight - (1.0 - off.x) * (1.0 - off.y)) < 2e-5);
+        }
+        const reference::History history = reference::findHistory(in, params, p, margin);
+        CHECK(isClose(found.fetchedColor, history.color));
+        CHECK(isClose(glm::dvec3(found.fetchedMoments, found.fetchedSamples),
+                      glm::dvec3(history.moments, history.length)));
+        CHECK(isClose(found.usedColor, reference::clampHistory(in, params, p, history.color)));
+        kept += history.length > 0.0;
+        clamped += found.usedColor != found.fetchedColor;
+        outside += found.outside > 0.0f;
+    }
+    CHECK(margin > 1e-4);
+    CHECK(surfaces > 1000);
+    CHECK(kept > 500);
+    CHECK(clamped > 100);
+    CHECK(outside > 100);
+}
