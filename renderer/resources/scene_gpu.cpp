@@ -2,7 +2,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/gl/embedded_shaders.h"
-#include "renderer/image/blue_noise.h"
+#include "renderer/image/pgm.h"
 #include "renderer/image/color.h"
 
 #include <chrono>

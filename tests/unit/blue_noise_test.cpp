@@ -1,6 +1,7 @@
 #include "renderer/base/error.h"
-#include "renderer/image/blue_noise.h"
+#include "renderer/image/pgm.h"
 #include "tests/support/source_dir.h"
+#include "tools/blue_noise/blue_noise.h"
 
 #include <algorithm>
 #include <cmath>

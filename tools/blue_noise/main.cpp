@@ -1,10 +1,10 @@
 // Makes the blue-noise tile that ships in assets/noise:
 //
-//     afterglow_blue_noise assets/noise/blue_noise_128.pgm
+//     blue_noise assets/noise/blue_noise_128.pgm
 //
 // The tile is a function of the edge and the seed alone; a test makes it again and compares.
 
-#include "renderer/image/blue_noise.h"
+#include "tools/blue_noise/blue_noise.h"
 
 #include <cstdio>
 #include <exception>
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     constexpr int kEdge = 128;
     constexpr std::uint32_t kSeed = 1;
     if (argc != 2) {
-        std::fprintf(stderr, "usage: afterglow_blue_noise FILE.pgm\n");
+        std::fprintf(stderr, "usage: blue_noise FILE.pgm\n");
         return 2;
     }
     try {
@@ -25,11 +25,11 @@ int main(int argc, char** argv) {
         file.write(bytes.data(), std::streamsize(bytes.size()));
         file.close();
         if (!file) {
-            std::fprintf(stderr, "afterglow_blue_noise: %s: cannot be written\n", argv[1]);
+            std::fprintf(stderr, "blue_noise: %s: cannot be written\n", argv[1]);
             return 1;
         }
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "afterglow_blue_noise: %s\n", error.what());
+        std::fprintf(stderr, "blue_noise: %s\n", error.what());
         return 1;
     }
     return 0;

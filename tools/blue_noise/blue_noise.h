@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 namespace afterglow {
 
@@ -21,9 +20,5 @@ Image<std::uint16_t> spreadRanks(const Image<std::uint16_t>& ranks);
 
 /// A binary PGM ("P5") of two bytes a pixel, most significant byte first, as the format demands.
 std::string writePgm16(const Image<std::uint16_t>& image);
-
-/// The pixels of a binary PGM of two bytes a pixel, as stored. `name` stands in front of every
-/// InputError.
-Image<std::uint16_t> readPgm16(std::string_view bytes, std::string_view name);
 
 } // namespace afterglow
