@@ -34,8 +34,8 @@ struct Experiment {
     double seconds(int frame) const { return frame / rate; }
 };
 
-/// An experiment from the text of its file. `source` is the file's name: every InputError begins
-/// with it and names the place inside:
+/// Reads an experiment from the text of its file. `source` is the file's name: every InputError
+/// begins with it and names the place inside:
 ///
 ///     light-off.json: timeline[0].frame: expected a whole number >= 0, found "x"
 ///
@@ -43,22 +43,22 @@ struct Experiment {
 /// folder.
 Experiment parseExperiment(std::string_view text, std::string_view source);
 
-/// The text of a file that says the same, with everything spelled out.
+/// Returns the text of a file that says the same, with everything spelled out.
 std::string toJson(const Experiment& experiment);
 
 struct ExperimentInfo {
     std::string name, description;
 };
 
-/// The experiments that come with the program, in alphabetical order.
+/// Returns the experiments that come with the program, in alphabetical order.
 std::vector<ExperimentInfo> builtInExperiments();
 
-/// A built-in experiment by its name, or a file: what holds a "/" or ends in .json is always a
-/// file. An unknown name is a UsageError that suggests the nearest known one; a file that cannot be
-/// read, or is not an experiment, is an InputError.
+/// Reads a built-in experiment by its name, or a file: what holds a "/" or ends in .json is always
+/// a file. An unknown name is a UsageError that suggests the nearest known one; a file that cannot
+/// be read, or is not an experiment, is an InputError.
 Experiment loadExperiment(std::string_view nameOrPath);
 
-/// Shortened: events from that frame on do not happen; what is on its way then stays on its way.
+/// Returns the timeline without the events from that frame on. What moves by then goes on moving.
 Timeline shortened(const Timeline& timeline, int frames);
 
 } // namespace afterglow

@@ -148,7 +148,7 @@ int readUntil(const JsonReader& json, int frame, int frames) {
     return int(until->wholeNumber(frame + 1, frames));
 }
 
-/// What an event is about is told by the key that names its target.
+/// Reads an event. The key that names its target tells its kind.
 TimelineEvent readEvent(const JsonReader& json, int frame, int frames) {
     if (json.find("node")) {
         json.expectKeys({"frame", "until", "node", "by"});
@@ -202,7 +202,7 @@ Timeline readTimeline(const JsonReader& json) {
     return Timeline(frames, std::move(events));
 }
 
-/// The double that is written as shortly as the float: 0.1, not 0.10000000149.
+/// Returns the double that is written as shortly as the float: 0.1, not 0.10000000149.
 double shortest(float value) {
     std::array<char, 32> text{};
     std::to_chars(text.data(), text.data() + text.size(), value);
@@ -244,7 +244,7 @@ Json describe(const CameraMove& move) {
     return json;
 }
 
-/// A number as a number, a name as a name.
+/// Returns a number as a number, a name as a name.
 Json settingJson(const std::string& value) {
     double number = 0.0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);

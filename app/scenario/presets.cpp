@@ -27,12 +27,12 @@ bool isFilterName(std::string_view name) {
     return std::ranges::count(filterNames(), name) > 0;
 }
 
-/// Of UTF-8: bytes that do not continue a character.
+/// Counts the bytes of UTF-8 that do not continue a character.
 std::size_t characters(std::string_view text) {
     return std::size_t(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-/// A field's value as setField() takes it: the shortest that is this very number.
+/// Returns a field's value as setField() takes it: the shortest that is this very number.
 std::string valueText(const Settings& settings, const Field& field) {
     Settings copy = settings;
     const Field::Ref ref = field.in(copy);

@@ -21,25 +21,26 @@ struct Preset {
 
 constexpr std::size_t kTitleLength = 24;
 
-/// Whether a text may name a preset, and so its file: letters, digits, "-" and "_", at most 64, and
-/// no filter's name.
+/// Returns whether a text may name a preset, and so its file: letters, digits, "-" and "_", at most
+/// 64, and no filter's name.
 bool isPresetName(std::string_view name);
 
-/// A preset from the text of its file; InputError as parseExperiment(). A file without "title" has
-/// its name for one. Settings of lighting and display are refused: they belong to the whole frame.
+/// Reads a preset from the text of its file; InputError as parseExperiment(). A file without
+/// "title" has its name for one. Settings of lighting and display are refused: they belong to the
+/// whole frame.
 Preset parsePreset(std::string_view text, std::string_view source);
 
-/// The file of a preset: of its settings those that are not at their default.
+/// Returns the file of a preset: of its settings those that are not at their default.
 std::string presetText(const Preset& preset);
 
-/// What makes these settings a filter, without lighting and display; title, description and source
-/// are left empty.
+/// Returns the preset that makes these settings a filter, without lighting and display. Title,
+/// description and source are empty.
 Preset presetOf(std::string_view name, const Settings& settings);
 
-/// Those that come with the program, in alphabetical order.
+/// Returns the presets that come with the program, in alphabetical order.
 std::span<const Preset> presets();
 
-/// The filter or preset of this name; UsageError names the nearest known.
+/// Returns the filter or preset of this name; UsageError names the nearest known.
 Variant variantNamed(std::string_view name);
 
 /// One setting in which two filters differ. The values are as setField() takes them.
@@ -51,8 +52,8 @@ struct SettingDifference {
     bool operator==(const SettingDifference&) const = default;
 };
 
-/// Where two filters differ: the filter, then the fields of the denoiser in their order. Lighting
-/// and display are left out.
+/// Returns the settings in which two filters differ: the filter, then the fields of the denoiser in
+/// their order. Lighting and display are left out.
 std::vector<SettingDifference> differencesOf(const Settings& a, const Settings& b);
 
 } // namespace afterglow

@@ -24,10 +24,10 @@ struct RunEvent {
     std::string text{}; ///< "key off"
 };
 
-/// How many frames back the trail of what moves is looked for.
+/// The number of frames in which the trail of what moves is looked for.
 inline constexpr int kTrailFrames = 16;
 
-/// What is known of a run before a picture is made.
+/// Everything of a run that is known before a frame is rendered.
 struct RunPlan {
     std::vector<Interval> intervals;
     std::vector<RunEvent> events; ///< changes of what is seen or how it is lit, in order
@@ -43,7 +43,8 @@ struct StagedRun {
     RunPlan plan;
 };
 
-/// InputError names what the scene does not have; see loadScene() for the scene itself.
+/// Loads the scene and plans the run. InputError names what the scene does not have; see
+/// loadScene() for the scene itself.
 StagedRun stagedRun(const Experiment& experiment);
 
 } // namespace afterglow

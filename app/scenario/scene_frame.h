@@ -11,14 +11,13 @@ namespace afterglow {
 
 struct FrameInput;
 
-/// What a frame of a scene is rendered from, and what is marked in it. Filters and their settings
-/// are not part of it.
+/// One frame of a scene: all that it is rendered from but filters and settings, and its marks.
 struct SceneFrame {
     std::uint32_t frame = 0; ///< its number: its noise follows from it
     double seconds = 0.0;    ///< scene time
     Camera camera{};
     std::vector<LightState> lights{}; ///< by slot; missing ones are as the scene has them
-    std::vector<std::string> marks{}; ///< what happens in it: "key off"
+    std::vector<std::string> marks{}; ///< the events in it: "key off"
     bool step = false;                ///< light alone has changed: there is a response to measure
 
     /// Returns what the renderer takes. Its lights are these, which must outlive it.
@@ -30,7 +29,7 @@ struct SceneFrame {
 /// Returns the state of a light in a list that may miss it: it is as the scene has it.
 LightState lightIn(std::span<const LightState> lights, std::size_t slot);
 
-/// What differs between two frames of a scene.
+/// The differences between two frames of a scene.
 struct SceneChange {
     bool lights = false; ///< a light shines differently
     bool world = false;  ///< an instance is in another place: what is lit, or casts a shadow

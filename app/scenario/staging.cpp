@@ -25,7 +25,7 @@ public:
         key(node, Track::Path::Rotation, frame, until,
             {rotation.x, rotation.y, rotation.z, rotation.w});
     }
-    /// Where the node is once all that has been said has happened.
+    /// Returns the place of the node after all motions so far.
     glm::vec3 translationOf(std::uint32_t node) {
         return glm::vec3(trackOf(node, Track::Path::Translation).values.back());
     }

@@ -66,7 +66,7 @@ std::optional<std::size_t> firstOffBeat(const Take& take, double rate) {
     return {};
 }
 
-/// The rate with the fewest decimals that agrees with every frame.
+/// Returns the rate with the fewest decimals that agrees with every frame.
 Pace paceOf(const Take& take) {
     const double first = take.frames.front().seconds;
     const double length = take.frames.back().seconds - first;
@@ -94,7 +94,7 @@ Pace paceOf(const Take& take) {
     return pace;
 }
 
-/// What poses and cameras need of a scene.
+/// Returns what poses and cameras need of a scene.
 Scene skeletonOf(const Scene& scene, bool animated) {
     Scene skeleton;
     skeleton.nodes = scene.nodes;
@@ -104,7 +104,7 @@ Scene skeletonOf(const Scene& scene, bool animated) {
     return skeleton;
 }
 
-/// The frames before the take, so that its times are those of the experiment.
+/// Returns the number of frames before the take, so that its times are those of the experiment.
 int framesBefore(const Take& take, const Scene& scene, const Pace& pace, int leadIn) {
     if (duration(scene) == 0.0)
         return leadIn;

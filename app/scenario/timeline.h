@@ -15,7 +15,7 @@ namespace afterglow {
 // [frame, until): at frame - 1 it has not begun, in frame until - 1 it has arrived. until = frame +
 // 1 is a jump.
 
-/// From `frame` on, a light is set differently. What is empty stays as it was.
+/// Sets a light differently from `frame` on. An empty field stays as it was.
 struct LightEvent {
     int frame = 0;     ///< >= 0
     std::string light; ///< a light's name; "*": all lights
@@ -61,8 +61,8 @@ int frameOf(const TimelineEvent& event);
 /// "key off", "key to 50 %", "key untinted", "mover moves", "camera cut".
 std::string describe(const TimelineEvent& event);
 
-/// What happens in the frames 0 .. frames - 1: events in the order of their frames. Those of one
-/// frame apply in the order in which they are listed.
+/// The events of the frames 0 .. frames - 1, in the order of their frames. Events of one frame
+/// apply in the order in which they are listed.
 class Timeline {
 public:
     Timeline() = default;
@@ -80,9 +80,9 @@ public:
     /// Returns what a frame is rendered from in the scene that this timeline has staged.
     SceneFrame frameAt(const Scene& staged, double rate, int frame) const;
 
-    /// The scene with this timeline's motions as its tracks, at `rate` frames per second; its own
-    /// tracks play only if `animated`. `owner` begins the message of the InputError that names a
-    /// light or a node that the scene does not have.
+    /// Returns the scene with this timeline's motions as its tracks, at `rate` frames per second;
+    /// its own tracks play only if `animated`. `owner` begins the message of the InputError that
+    /// names a light or a node that the scene does not have.
     Scene staged(Scene scene, double rate, bool animated, std::string_view owner) const;
 
 private:
@@ -98,18 +98,18 @@ Timeline lightTimeline(const Scene& scene, std::vector<LightEvent> events, int f
 /// The frames [first, end) in which nothing changes: they share one converged picture.
 struct Interval {
     int first = 0, end = 0;
-    SceneFrame start{};    ///< what its first frame is rendered from
+    SceneFrame start{};    ///< its first frame
     SceneChange changed{}; ///< since the frame before
 
     int frames() const { return end - first; }
     bool isStep() const { return changed.isStep(); }
 };
 
-/// The intervals of a timeline in a scene that it has staged: in order, without a gap, each as long
-/// as it can be. An event that sets what is already so ends none.
+/// Returns the intervals of a timeline in a scene that it has staged: in order, without a gap, each
+/// as long as it can be. An event that sets what is already so ends none.
 std::vector<Interval> intervalsOf(const Timeline& timeline, const Scene& staged, double rate);
 
-/// The index of the interval that holds a frame.
+/// Returns the index of the interval that holds a frame.
 std::size_t intervalAt(const std::vector<Interval>& intervals, int frame);
 
 } // namespace afterglow

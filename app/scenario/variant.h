@@ -10,7 +10,7 @@
 
 namespace afterglow {
 
-/// Where a variant stands in a sweep of one setting.
+/// The place of a variant in a sweep of one setting.
 struct SweepPoint {
     std::string variant; ///< the one that it was made from
     std::string key;     ///< of the setting
@@ -33,11 +33,11 @@ struct Variant {
     bool operator==(const Variant&) const = default;
 };
 
-/// A filter with everything at its default, under the filter's name.
+/// Returns a filter with everything at its default, under the filter's name.
 Variant variantOf(Filter filter);
 
-/// Whether a text may name a variant or an experiment: letters, digits, "-", "_" and ".", which is
-/// not the first.
+/// Returns whether a text may name a variant or an experiment: letters, digits, "-", "_" and ".",
+/// which is not the first.
 bool isPlainName(std::string_view name);
 
 /// UsageError for a setting that does not exist or a value out of range.

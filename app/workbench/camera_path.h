@@ -7,12 +7,12 @@
 
 namespace afterglow {
 
-/// A camera on a closed way through the keys, at least two, three seconds from one to the next;
-/// smooth in place and direction.
+/// Returns a camera on a closed way through the keys, at least two, three seconds from one to the
+/// next; smooth in place and direction.
 Camera onPath(std::span<const Camera> keys, double seconds);
 inline constexpr double kSecondsPerKey = 3.0;
 
-/// Four keys around a camera that looks at what is that far away: a sway.
+/// Returns four keys around a camera that looks at what is that far away: a sway.
 std::vector<Camera> swayAround(const Camera& home, float distance);
 
 } // namespace afterglow

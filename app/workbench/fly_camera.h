@@ -4,7 +4,7 @@
 
 namespace afterglow {
 
-/// What the hands ask of a camera in one frame.
+/// The flight that is asked of a camera in one frame.
 struct FlyInput {
     glm::vec3 move{0.0f}; ///< right, up, forward; each in [-1, 1]
     glm::vec2 look{0.0f}; ///< radians to the right and up
@@ -17,7 +17,7 @@ constexpr float kFastFactor = 4.0f;
 /// or the nadir. Diagonal moves are as fast as straight ones.
 void fly(Camera& camera, const FlyInput& input, float metresPerSecond, double seconds);
 
-/// A speed for a scene of that extent in metres, and what a notch of the wheel makes of it.
+/// Return a speed for a scene of that extent in metres, and the speed after notches of the wheel.
 float defaultSpeed(float extent);
 float changedSpeed(float metresPerSecond, float notches, float extent);
 

@@ -22,7 +22,7 @@ KeyStroke controlled(char key) {
     return {.key = keyOf(key), .control = true};
 }
 
-/// The number row with these modifiers, from 1 on.
+/// Returns the number row with these modifiers, from 1 on.
 std::vector<std::pair<KeyStroke, Command>> numberRow(Action action, bool control, bool shift) {
     std::vector<std::pair<KeyStroke, Command>> strokes;
     for (int slot = 0; slot < 9; ++slot)

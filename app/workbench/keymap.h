@@ -46,7 +46,7 @@ struct KeyStroke {
     bool operator==(const KeyStroke&) const = default;
 };
 
-/// Everything that one key can do at once. Held keys fly the camera; see FlyInput.
+/// The actions of single keys. Held keys fly the camera; see FlyInput.
 enum class Action {
     NextFilter,
     PreviousFilter,
@@ -130,7 +130,8 @@ struct KeyHelp {
 };
 std::span<const KeyHelp> keyHelp();
 
-/// What a stroke means, or nothing. Strokes with Control never mean what they mean without.
+/// Returns the command of a stroke, or nothing. Strokes with Control never mean what they mean
+/// without.
 std::optional<Command> commandFor(KeyStroke stroke);
 
 } // namespace afterglow

@@ -9,7 +9,7 @@ namespace {
 constexpr float kDimmed = 0.5f;
 constexpr glm::vec3 kBlue{0.25f, 1.21157f, 2.6f}; // the tint of the experiment light-color
 
-/// What a light's action makes of the light as it is now.
+/// Returns the event that a light's action causes from the light's present state.
 LightEvent lightEvent(const ViewState& state, Action action, std::size_t slot) {
     constexpr glm::vec3 kWhite{1.0f};
     const LightState& light = state.lights[slot];

@@ -21,17 +21,18 @@ inline constexpr std::array kSceneActions{
     Action::CutCamera,        ///< to the next camera or bookmark
     Action::ToggleCameraPath, ///< starts or stops the camera's way
 };
-bool isLightAction(Action action); ///< it is about one light
+bool isLightAction(Action action); ///< of one light: Command::index is its slot
 
-/// "toggle key", "camera cut": what it will do.
+/// Returns what the action will do: "toggle key", "camera cut".
 std::string nameOf(const Command& event, std::span<const std::string> lightNames);
 
-/// Does it, and remembers it as what repeats. Nothing happens without such a light.
+/// Does the action, and remembers it as what repeats. Nothing happens without such a light.
 void letHappen(ViewState& state, const Command& event);
 
-/// The tint that turns light of this color (linear rgb) to another hue and leaves its luminance as
-/// it is: what a gradient of luminance cannot see. White becomes blue; the key light of the Cornell
-/// box does what it does in the experiment light-color. Light of one primary keeps its hue.
+/// Returns the tint that turns light of this color (linear rgb) to another hue and leaves its
+/// luminance as it is: what a gradient of luminance cannot see. White becomes blue; the key light
+/// of the Cornell box does what it does in the experiment light-color. Light of one primary keeps
+/// its hue.
 glm::vec3 equalLuminanceTint(glm::vec3 color);
 
 } // namespace afterglow

@@ -81,13 +81,13 @@ struct Transport {
     std::optional<SceneFrame> given{}; ///< by nextFrame(), until it is rendered
 };
 
-/// Whether a frame is to be rendered now. The very first one always, so that there is something to
-/// see; one that is stepped to at once, whatever the limit.
+/// Returns whether a frame is to be rendered now. The first one always is, so that there is
+/// something to see; one that is stepped to at once, whatever the limit.
 bool wantsFrame(const Transport& t, double secondsSinceLastFrame);
 /// Returns the seconds until the next frame is due: 0 at least, infinity where none is wanted.
 double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame);
 
-/// What the next frame is given: `live`, with the transport's number and time, or what the played
+/// Returns the next frame: `live`, with the transport's number and time, or what the played
 /// take says.
 /// Where a take has ended there is none: a std::logic_error.
 SceneFrame nextFrame(Transport& t, const SceneFrame& live);
@@ -121,7 +121,7 @@ void play(Transport& t, Take take, bool loop);
 /// person's. Empty if no take was played or no frame has been rendered.
 [[nodiscard]] std::optional<SceneFrame> stopPlaying(Transport& t);
 
-/// The histories kept no longer fit, as after a change of resolution: rounds begin without any.
+/// Forgets the checkpoint, as after a change of resolution: rounds begin without histories.
 void checkpointLost(Transport& t);
 
 /// For another scene: frame 0, no take, nothing past. How time runs stays.
@@ -131,7 +131,7 @@ bool isFinished(const Transport& t); ///< at the end of a take that does not loo
 
 /// Begins to repeat with the next frame; every = 0 ends it.
 void startRepeat(Transport& t, int every);
-/// Whether what is repeated happens in the next frame. Nothing is while a take is played. To be
+/// Returns whether what repeats happens in the next frame; never while a take is played. To be
 /// asked once a frame, before it is rendered.
 bool repeatIsDue(const Transport& t);
 
