@@ -122,7 +122,7 @@ void exportFrames(const Experiment& experiment, const StagedRun& run, Renderer& 
     Json files = Json::object();
     const auto signals = renderer.signals();
     for (const AovInfo* aov : aovs)
-        for (std::size_t i = 0; i < (isPerSignal(*aov) ? signals.size() : 1); ++i)
+        for (std::size_t i = 0; i < (aov->perSignal ? signals.size() : 1); ++i)
             files[fileStem(*aov, signals[i], signals.size())] = describe(*aov);
     files[std::string(kPreviousDepth)] = {
         {"channels", "Y"}, {"meaning", "depth of the surface a frame ago, metres; 0 is none"}};

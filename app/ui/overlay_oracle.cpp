@@ -46,11 +46,10 @@ void results(const PanelContext& panel) {
         ImGui::TextUnformatted(formatted("%.4f", *rmse).c_str());
     }
     ImGui::PushFont(panel.fonts.small);
-    if (state.shown.kind == Shown::Kind::Oracle && state.shown.index < kOracleImages)
-        dimText("shown: " + std::string(nameOf(OracleImage(state.shown.index))) +
-                "; Shift U: the next view of the truth");
-    else
-        dimText("Shift U: the next view of the truth");
+    const std::string next = "Shift U: the next view of the truth";
+    dimText(state.shown.isTruth()
+                ? "shown: " + std::string(images()[state.shown.index].name) + "; " + next
+                : next);
     ImGui::PopFont();
 }
 

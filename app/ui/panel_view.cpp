@@ -14,30 +14,14 @@
 namespace afterglow {
 namespace {
 
-// The first image of each group, in the order of aovs().
-struct ImageGroup {
-    std::string_view first;
-    const char* title;
-};
-constexpr ImageGroup kGroups[] = {
-    {"color", "Light"},     {"albedo", "Surfaces"}, {"samples", "Gradient samples"},
-    {"filtered", "Filter"}, {"moments", "History"}, {"lambda", "Change of light"}};
-
 std::string shownName(const PanelContext& panel) {
     const Shown& shown = panel.state.shown;
-    switch (shown.kind) {
-    case Shown::Kind::Picture: return "picture";
-    case Shown::Kind::Aov:
-        return shown.index < aovs().size() ? std::string(aovs()[shown.index].name) : std::string();
-    case Shown::Kind::Pass: {
-        const auto& made = panel.bench.passes().made();
-        if (shown.index >= made.size())
-            return "a pass";
-        return made[shown.index].pass + ": " + made[shown.index].image;
-    }
-    case Shown::Kind::Oracle: return std::string(nameOf(OracleImage(shown.index)));
-    }
-    return {};
+    if (shown.kind == Shown::Kind::Picture)
+        return "picture";
+    if (shown.kind == Shown::Kind::Image)
+        return std::string(images()[shown.index].name);
+    const auto& made = panel.bench.passes().made();
+    return shown.index < made.size() ? made[shown.index].title() : "a pass";
 }
 
 void chooseImage(const PanelContext& panel) {
@@ -49,12 +33,11 @@ void chooseImage(const PanelContext& panel) {
         tooltip("The denoised picture, tone-mapped");
         for (std::size_t i = 0; i < aovs().size(); ++i) {
             const AovInfo& aov = aovs()[i];
-            for (const ImageGroup& group : kGroups)
-                if (group.first == aov.name)
-                    groupTitle(panel.fonts, group.title);
+            if (i == 0 || aov.group != aovs()[i - 1].group)
+                groupTitle(panel.fonts, titleOf(aov.group).data());
             const bool made = isMadeBy(aov, state.settings());
             ImGui::PushStyleColor(ImGuiCol_Text, made ? color::kText : color::kFaint);
-            const Shown wanted{Shown::Kind::Aov, i};
+            const Shown wanted{Shown::Kind::Image, i};
             if (ImGui::Selectable(std::string(aov.name).c_str(), state.shown == wanted))
                 state.shown = wanted;
             ImGui::PopStyleColor();
@@ -82,15 +65,6 @@ void chooseSignal(ViewState& state) {
         state.signal = std::size_t(*chosen);
     tooltip("Whose images are shown, and whose lambda, alpha and history the probes and the "
             "inspector read. The picture is of all.");
-}
-
-// How the image that is shown is shown; null for the picture and for what a pass made.
-ImageDisplay* shownDisplay(ViewState& state) {
-    if (state.shown.kind == Shown::Kind::Oracle && state.shown.index < kOracleImages)
-        return &state.oracleDisplays[state.shown.index];
-    if (state.shown.kind == Shown::Kind::Aov && state.shown.index < state.displays.size())
-        return &state.displays[state.shown.index];
-    return nullptr;
 }
 
 constexpr std::array<int, 3> kMaps = {gpu::kMapScalar, gpu::kMapLogarithm, gpu::kMapSigned};
@@ -166,13 +140,13 @@ void oracle(ViewState& state) {
     if (!state.frozen)
         return;
     const float gap = 0.3f * em(), width = shareOf(3, gap);
-    for (std::size_t i = 0; i < kOracleImages; ++i) {
-        if (i % 3 != 0)
+    for (std::size_t i = aovs().size(), column = 0; i < images().size(); ++i, ++column) {
+        if (column % 3 != 0)
             ImGui::SameLine(0.0f, gap);
-        const Shown wanted{Shown::Kind::Oracle, i};
-        if (litButton(std::string(nameOf(OracleImage(i))).c_str(), state.shown == wanted, width))
+        const Shown wanted{Shown::Kind::Image, i};
+        if (litButton(images()[i].name.data(), state.shown == wanted, width))
             state.shown = wanted;
-        tooltip(std::string(describe(OracleImage(i))) + "\nShift U goes through these.");
+        tooltip(std::string(images()[i].meaning) + "\nShift U goes through these.");
     }
 }
 
@@ -231,9 +205,9 @@ void panelView(const PanelContext& panel) {
         return;
     chooseImage(panel);
     chooseSignal(panel.state);
-    if (ImageDisplay* const display = shownDisplay(state)) {
-        chooseMap(*display);
-        chooseRange(state, *display);
+    if (state.shown.kind == Shown::Kind::Image) {
+        chooseMap(state.displays[state.shown.index]);
+        chooseRange(state, state.displays[state.shown.index]);
     } else if (picture) {
         fieldRow(state.panes, fieldByKey("exposure"));
     }

@@ -135,8 +135,7 @@ void passRow(const PassTimings& timings, const PassRow& row, double longest) {
 
 // "3 filtered": of the third run, where a pass runs more than once.
 std::string labelOf(const PassCapture::Made& made) {
-    const std::string run = made.pass.substr(std::min(made.name.size() + 1, made.pass.size()));
-    return run.empty() ? made.image : run + " " + made.image;
+    return made.isOnly ? made.image : std::to_string(made.run) + " " + made.image;
 }
 
 void imageButtons(const PanelContext& panel, const PassRow& row, bool follow) {
@@ -167,7 +166,7 @@ void imageButtons(const PanelContext& panel, const PassRow& row, bool follow) {
                 show(state, Shown::Kind::Pass, index);
         }
         ImGui::PopID();
-        tooltip(made[index].pass + " makes \"" + made[index].image +
+        tooltip(made[index].pass() + " makes \"" + made[index].image +
                 "\". Shows it as it is right after the pass; again: the picture.");
         if (lit && follow)
             ImGui::SetScrollHereY(0.5f);

@@ -1,63 +1,33 @@
 #include "app/workbench/frame_images.h"
 
+#include "app/measure/truth_images.h"
 #include "shared/bindings.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace afterglow {
-namespace {
 
 using namespace gpu;
 
-constexpr std::string_view kRadiance = "radiance";
-
-// Ranges suit lights that light a white floor to a radiance of about 1.
-constexpr ImageDisplay kDisplays[] = {
-    {"color", kMapRadiance, 0.0f, 1.0f, kRadiance},
-    {"filtered", kMapRadiance, 0.0f, 1.0f, kRadiance},
-    {"raw", kMapRadiance, 0.0f, 1.0f, kRadiance},
-    {"accumulated", kMapRadiance, 0.0f, 1.0f, kRadiance},
-    {"history_luminance", kMapScalar, 0.0f, 1.0f, kRadiance},
-    {"variance", kMapLogarithm, 1e-5f, 1.0f, "radiance squared"},
-    {"albedo", kMapRadiance, 0.0f, 1.0f, ""},
-    {"emission", kMapRadiance, 0.0f, 10.0f, kRadiance},
-    {"normal", kMapVector, -1.0f, 1.0f, ""},
-    {"depth", kMapScalar, 0.0f, 0.6f, "m", true},
-    {"position", kMapRepeat, 0.0f, 0.04f, "m", true},
-    {"slope", kMapDirection, 0.0f, 0.002f, "m per pixel", true},
-    {"motion", kMapDirection, 0.0f, 8.0f, "pixels"},
-    {"instance", kMapNumber, 0.0f, 1.0f, ""},
-    {"moments", kMapLogarithm, 1e-3f, 10.0f, kRadiance},
-    {"history", kMapLogarithm, 1.0f, 128.0f, "frames"},
-    {"alpha", kMapScalar, 0.0f, 1.0f, ""},
-    {"reason", kMapNumber, 0.0f, 5.0f, ""},
-    {"lambda", kMapScalar, 0.0f, 1.0f, ""},
-    {"lambda_strata", kMapScalar, 0.0f, 1.0f, ""},
-    {"gradient", kMapSigned, -0.5f, 0.5f, kRadiance},
-    {"gradient_max", kMapScalar, 0.0f, 1.0f, kRadiance},
-    {"gradient_sample", kMapSigned, -0.5f, 0.5f, kRadiance},
-    {"gradient_sample_max", kMapScalar, 0.0f, 1.0f, kRadiance},
-    {"samples", kMapNumber, 0.0f, 9.0f, ""},
-    {"fate", kMapNumber, 0.0f, 7.0f, ""},
-};
-
-} // namespace
+std::span<const AovInfo> images() {
+    static const std::vector<AovInfo> all = [] {
+        std::vector<AovInfo> list(aovs().begin(), aovs().end());
+        for (const TruthImage& image : truthImages())
+            list.push_back(image.info);
+        return list;
+    }();
+    return all;
+}
 
 std::vector<ImageDisplay> imageDisplays(float extent) {
     std::vector<ImageDisplay> displays;
-    for (const AovInfo& aov : aovs()) {
-        const auto known = std::ranges::find(kDisplays, aov.name, &ImageDisplay::name);
-        if (known == std::end(kDisplays))
-            throw std::logic_error("no way to show the image " + std::string(aov.name));
-        ImageDisplay display = *known;
-        if (display.perExtent) {
-            display.low *= extent;
-            display.high *= extent;
-            display.perExtent = false;
-        }
-        displays.push_back(display);
+    for (const AovInfo& image : images()) {
+        ImageDisplay& display = displays.emplace_back(image.display);
+        if (!std::exchange(display.perExtent, false))
+            continue;
+        display.low *= extent;
+        display.high *= extent;
     }
     return displays;
 }

@@ -1,59 +1,67 @@
 #pragma once
 
-#include "app/workbench/view_state.h"
-#include "renderer/pipeline/renderer.h"
+#include "app/measure/truth_images.h"
+#include "app/scenario/scene_frame.h"
 
-#include <memory>
-#include <optional>
-#include <vector>
+#include <map>
 
 namespace afterglow {
 
-/// The truth of a frozen frame, converged a little at a time by a renderer of its own, so that the
-/// histories of the one that is watched stay as they are. docs/experiments.md defines the ideal
-/// lambda and alpha; for the same frame the values are those of an experiment, bit for bit.
+/// The ground truth of a frozen frame, made a little at a time by a renderer of its own, so that
+/// the histories of the one that is watched stay as they are.
 class OracleView {
 public:
-    OracleView(ShaderLibrary& shaders, const GlInfo& gl);
-    ~OracleView();
+    OracleView(ShaderLibrary& shaders, const GlInfo& gl) : shaders_(shaders), gl_(gl) {}
+    OracleView(const OracleView&) = delete;
+    OracleView& operator=(const OracleView&) = delete;
 
     /// The frame that was rendered last, and the one before it, if there was one.
-    struct Moment {
+    struct Frozen {
         SceneFrame now;
         std::uint32_t seed = 0; ///< of the whole run
         std::optional<SceneFrame> before = {};
     };
-    /// Takes the place of an earlier moment. `settings` are those of that frame; its filters are
-    /// those that ran. `samples` a pixel, at least 1, for each of the two references; the second is
-    /// not traced where nothing has changed since the frame before. The watched renderer must have
-    /// rendered; else std::logic_error. Copies what it needs.
-    void begin(const Renderer& watched, Moment moment, const FrameSettings& settings, int samples);
-    /// Traces for about so long, and one sample at least; nothing once it is done. True if it has
-    /// just become done.
+    /// Takes the place of an earlier frame. `settings` are those of that frame; its filters are
+    /// those that ran. `samples` a pixel, at least 1, of each reference. The watched renderer must
+    /// have rendered; else std::logic_error. Copies what it needs.
+    void begin(const Renderer& watched, Frozen frame, const FrameSettings& settings, int samples);
+    /// Traces for about so long, and one sample at least; nothing once it is done. Returns whether
+    /// it has just become done.
     bool advance(double milliseconds);
-    void end(); ///< forgets the moment
+    void end(); ///< forgets the frame
 
-    bool isActive() const; ///< there is a moment, done or not
-    bool isDone() const;
-    double progress() const; ///< [0, 1]; 0 without a moment
-    int samples() const;     ///< a pixel, of each reference; 0 without a moment
+    bool isActive() const { return samples_ > 0; } ///< there is a frame, done or not
+    bool isDone() const { return truth_.has_value(); }
+    double progress() const { return isDone() ? 1.0 : making_ ? making_->progress() : 0.0; }
+    int samples() const { return samples_; } ///< a pixel, of each reference; 0 without a frame
 
-    /// What can be said of a filter of the frozen frame, as an image of its own: R32F per pixel, or
-    /// per stratum where it is of lambda; RGBA32F, linear radiance, for the reference. Null before
-    /// it is done, where the filter did not run or has no such thing (no history, no lambda from
-    /// gradients), and for lambda where there was no frame before. Ideal and error are 0 on the
-    /// background; so are the error of lambda where there is no light in either frame, and that of
-    /// alpha where there is no history. The image lives until the moment is forgotten.
-    /// Ideals are those of one signal, and so are lambda and alpha; error and reference are of all.
-    const GpuTexture* image(OracleImage image, std::size_t state, std::size_t signal = 0);
+    /// One of truthImages(), of a filter of the frozen frame: RGBA32F, per pixel or per stratum.
+    /// Null before it is done, and where the filter did not run or has no such thing. Lives until
+    /// the frame is forgotten.
+    const GpuTexture* image(std::size_t image, std::size_t state, std::size_t signal = 0);
     /// Root mean square error of the filter's light on surfaces (signal times albedo) against that
     /// of the reference, over red, green and blue. Empty before it is done, where the filter did
     /// not run, and where no surface is seen.
     std::optional<double> rmse(std::size_t state);
 
 private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    /// The result of one filter for the frozen frame, and what was made from it.
+    struct Filter {
+        FrameImages images;
+        float deltaFloor = 0.0f;
+        std::optional<double> rmse{};
+        std::map<std::pair<std::size_t, std::size_t>, GpuTexture> textures{}; ///< signal, image
+    };
+
+    ShaderLibrary& shaders_;
+    GlInfo gl_;
+    Frozen frame_;
+    int samples_ = 0;
+    std::array<std::optional<Filter>, kFilterStates> filters_;
+    // While it converges.
+    std::optional<Renderer> renderer_;
+    std::optional<GroundTruth> making_;
+    std::optional<Truth> truth_; ///< once it is there
 };
 
 } // namespace afterglow

@@ -1,7 +1,6 @@
 #include "app/workbench/pass_capture.h"
 
 #include <algorithm>
-#include <set>
 
 namespace afterglow {
 
@@ -12,17 +11,15 @@ void PassCapture::begin(Keep keep, std::size_t index) {
 }
 
 void PassCapture::passDone(std::string_view pass, std::span<const GpuTexture* const> made) {
-    // Passes of one name count from 1 on; a frame in which there is only one is told at its end.
-    const auto before = std::count_if(made_.begin(), made_.begin() + std::ptrdiff_t(next_),
-                                      [&](const Made& m) { return m.name == pass; });
-    const auto images = std::ptrdiff_t(made.size());
-    const std::string numbered = std::string(pass) + " " + std::to_string(before / images + 1);
+    const auto last = std::find_if(made_.rend() - std::ptrdiff_t(next_), made_.rend(),
+                                   [&](const Made& m) { return m.name == pass; });
+    const int run = last == made_.rend() ? 1 : last->run + 1;
     for (const GpuTexture* texture : made) {
         if (next_ == made_.size())
             made_.emplace_back();
         Made& slot = made_[next_];
-        slot.pass = numbered;
         slot.name = pass;
+        slot.run = run;
         // Of two that change places with every frame, either may be the one.
         slot.image = texture->label().substr(0, texture->label().find(" (previous)"));
         const bool keeps = keep_ == Keep::All || (keep_ == Keep::One && next_ == wanted_);
@@ -42,13 +39,9 @@ void PassCapture::passDone(std::string_view pass, std::span<const GpuTexture* co
 
 void PassCapture::end() {
     made_.resize(next_);
-    std::set<std::string> again; // names of passes that ran more than once
-    for (const Made& m : made_)
-        if (m.pass == m.name + " 2")
-            again.insert(m.name);
     for (Made& m : made_)
-        if (!again.contains(m.name))
-            m.pass = m.name;
+        m.isOnly = std::ranges::none_of(
+            made_, [&](const Made& other) { return other.name == m.name && other.run != m.run; });
 }
 
 const GpuTexture* PassCapture::image(std::size_t index) const {

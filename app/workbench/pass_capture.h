@@ -12,10 +12,15 @@ namespace afterglow {
 class PassCapture final : public PassListener {
 public:
     struct Made {
-        std::string pass;   ///< "a-trous 3": with a number where a pass runs more than once
-        std::string name;   ///< "a-trous": as the timer calls it
-        std::string image;  ///< the texture's label: "filtered 1"
-        GpuTexture texture; ///< a copy as of when it was made; empty if it was not wanted
+        std::string name{};   ///< "a-trous": as the timer calls it
+        int run = 1;          ///< of the runs of a pass of that name, counted from 1
+        bool isOnly = true;   ///< there is no other run
+        std::string image{};  ///< the texture's label: "filtered 1"
+        GpuTexture texture{}; ///< a copy as of when it was made; empty if it was not wanted
+
+        /// "a-trous 3: filtered 1": with a number where a pass runs more than once.
+        std::string title() const { return pass() + ": " + image; }
+        std::string pass() const { return isOnly ? name : name + " " + std::to_string(run); }
     };
     enum class Keep { Nothing, One, All };
 

@@ -10,8 +10,9 @@ constexpr float kDividerStep = 0.02f;
 void cycleOracle(ViewState& state) {
     if (!state.frozen)
         return toggleFreeze(state);
-    const std::size_t next = state.shown.kind == Shown::Kind::Oracle ? state.shown.index + 1 : 0;
-    show(state, Shown::Kind::Oracle, next % kOracleImages);
+    const std::size_t first = aovs().size(), count = images().size() - first;
+    const std::size_t next = state.shown.isTruth() ? state.shown.index + 1 - first : 0;
+    show(state, Shown::Kind::Image, first + next % count);
 }
 
 void cycleCurve(ViewState& state) {

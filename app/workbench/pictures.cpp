@@ -10,51 +10,21 @@ namespace {
 
 using namespace gpu;
 
-/// What the images of a frame hold, by the beginnings of their labels.
-struct Content {
-    std::string_view label;
-    std::string_view aov; ///< shown as this one is
-    int channel = 0;
-    bool isFloatBits = false;
-};
-constexpr Content kContents[] = {
-    {"ids", "instance"},
-    {"visibility", "instance"},
-    {"sample visibility", "instance"},
-    {"seeds", "instance"},
-    {"sample seeds", "instance"},
-    {"surface", "position", 0, true},
-    {"sample surface", "position", 0, true},
-    {"guides", "normal"},
-    {"sample guides", "normal"},
-    {"slope", "slope"},
-    {"sample slope", "slope"},
-    {"motion", "motion"},
-    {"sample motion", "motion"},
-    {"albedo", "albedo"},
-    {"sample albedo", "albedo"},
-    {"emission", "emission"},
-    {"sample emission", "emission"},
-    {"raw", "raw"},
-    {"sample raw", "raw"},
-    {"samples", "samples", 1},
-    {"gradient samples", "gradient_sample"},
-    {"gradient 0", "gradient"},
-    {"gradient 1", "gradient"},
-    {"lambda", "lambda_strata"},
-    {"luminance range", "history_luminance"},
-    {"accumulated", "accumulated"},
-    {"color", "accumulated"},
-    {"moments", "moments"},
-    {"control", "alpha", 1},
-    {"filtered 0", "filtered"},
-    {"filtered 1", "filtered"},
-    {"composed", "color"},
-};
+/// The label of a texture without what tells apart textures that hold the same: those that change
+/// places with every frame, those of strata and their samples, the two that iterations alternate.
+std::string_view contentOf(std::string_view label) {
+    label = label.substr(0, label.find(" (previous)"));
+    for (const std::string_view prefix : {"sample ", "strata "})
+        if (label.starts_with(prefix))
+            label.remove_prefix(prefix.size());
+    if (label.ends_with(" 0") || label.ends_with(" 1"))
+        label.remove_suffix(2);
+    return label;
+}
 
-std::size_t indexOf(std::string_view aov) {
-    const auto all = aovs();
-    return std::size_t(std::ranges::find(all, aov, &AovInfo::name) - all.begin());
+bool isWhole(PixelFormat format) {
+    return format == PixelFormat::R32UI || format == PixelFormat::RG32UI ||
+           format == PixelFormat::RGBA32UI;
 }
 
 std::size_t signalIn(const Pictures::Sources& from) {
@@ -67,24 +37,39 @@ bool same(const DebugViewParams& a, const DebugViewParams& b) {
 
 } // namespace
 
+void Pictures::Choice::show(const AovSource& source, const ImageDisplay& display,
+                            glm::ivec2 picture) {
+    image = &source.texture;
+    params = debugViewParams(display, source, picture);
+    legend.display = display;
+}
+
 Pictures::Pictures(ShaderLibrary& shaders) : debugView_(shaders), difference_(shaders) {}
 
-Pictures::Choice Pictures::aovChoice(const Sources& from, std::size_t pane) const {
-    const AovInfo& aov = aovs()[from.state.shown.index];
+Pictures::Choice Pictures::imageChoice(const Sources& from, std::size_t pane) const {
+    const std::size_t index = from.state.shown.index, signal = signalIn(from);
+    const AovInfo& info = images()[index];
     const auto signals = from.renderer.signals();
     Choice choice;
     choice.legend = {
-        fileStem(aov, signals[signalIn(from)], signals.size()), std::string(aov.meaning), {}, {}};
-    if (!isMadeBy(aov, from.renderer.ran(pane)->settings)) {
+        fileStem(info, signals[signal], signals.size()), std::string(info.meaning), {}, {}};
+    std::optional<AovSource> source;
+    if (!isTruth(index)) {
+        if (isMadeBy(info, from.renderer.ran(pane)->settings))
+            source.emplace(sourceOf(from.renderer, info, pane, signal));
+        else
+            choice.legend.note =
+                titleOf(from.state.panes.all[pane]) + " does not make it: this is the picture.";
+    } else if (!from.oracle.isDone()) {
+        choice.legend.note = "It is shown when the reference has converged.";
+    } else if (const auto* image = from.oracle.image(index - aovs().size(), pane, signal)) {
+        source.emplace(*image);
+    } else {
         choice.legend.note =
-            titleOf(from.state.panes.all[pane]) + " does not make it: this is the picture.";
-        return choice;
+            titleOf(from.state.panes.all[pane]) + " has none: this is the picture.";
     }
-    const ImageDisplay& display = from.state.displays[from.state.shown.index];
-    const AovSource source = sourceOf(from.renderer, aov, pane, signalIn(from));
-    choice.image = &source.texture;
-    choice.params = debugViewParams(display, source, from.renderer.size());
-    choice.legend.display = display;
+    if (source)
+        choice.show(*source, from.state.displays[index], from.renderer.size());
     return choice;
 }
 
@@ -96,58 +81,47 @@ Pictures::Choice Pictures::passChoice(const Sources& from) const {
         return choice;
     }
     const PassCapture::Made& chosen = made[from.state.shown.index];
-    choice.legend.name = chosen.pass + ": " + chosen.image;
+    choice.legend.name = chosen.title();
     choice.image = from.passes.image(from.state.shown.index);
     if (!choice.image) {
         choice.legend.note = "It is shown from the next frame on.";
         return choice;
     }
-    const auto content =
-        std::ranges::find(kContents, std::string_view(chosen.image), &Content::label);
-    if (content == std::end(kContents)) // the finished picture
+    if (choice.image->format() == PixelFormat::RGBA8) // the finished picture
         return choice;
-    const std::size_t index = indexOf(content->aov);
-    const ImageDisplay& display = from.state.displays[index];
-    choice.legend.meaning =
-        "shown as " + std::string(content->aov) + ": " + std::string(aovs()[index].meaning);
-    choice.legend.display = display;
-    choice.params = debugViewParams(
-        display, {*choice.image, content->channel, content->isFloatBits}, from.renderer.size());
-    return choice;
-}
-
-Pictures::Choice Pictures::oracleChoice(const Sources& from, std::size_t pane) const {
-    const auto wanted = OracleImage(from.state.shown.index);
-    const ImageDisplay& display = from.state.oracleDisplays[from.state.shown.index];
-    Choice choice;
-    choice.legend = {std::string(nameOf(wanted)), std::string(describe(wanted)), {}, {}};
-    if (!from.oracle.isDone()) {
-        choice.legend.note = "It is shown when the reference has converged.";
-        return choice;
-    }
-    choice.image = from.oracle.image(wanted, pane, signalIn(from));
-    if (!choice.image) {
-        choice.legend.note =
-            titleOf(from.state.panes.all[pane]) + " has none: this is the picture.";
-        return choice;
-    }
-    choice.legend.display = display;
-    choice.params = debugViewParams(display, {*choice.image}, from.renderer.size());
+    const glm::ivec2 size = from.renderer.size();
+    for (const std::size_t pane : shownPanes(from.state.panes))
+        for (std::size_t i = 0; i < aovs().size(); ++i) {
+            const AovInfo& aov = aovs()[i];
+            const RanFilter* const ran = from.renderer.ran(pane);
+            if (!ran || !isMadeBy(aov, ran->settings))
+                continue;
+            const AovSource kept = sourceOf(from.renderer, aov, pane, signalIn(from));
+            if (contentOf(kept.texture.label()) != contentOf(chosen.image))
+                continue;
+            choice.legend.meaning =
+                "shown as " + std::string(aov.name) + ": " + std::string(aov.meaning);
+            choice.show({*choice.image, kept.channel, kept.isFloatBits}, from.state.displays[i],
+                        size);
+            return choice;
+        }
+    // No image of the frame is kept in such a texture.
+    choice.show({*choice.image}, isWhole(choice.image->format()) ? numbersUpTo(1.0f) : radiance(),
+                size);
     return choice;
 }
 
 Pictures::Choice Pictures::choiceFor(const Sources& from, std::size_t pane) const {
     switch (from.state.shown.kind) {
     case Shown::Kind::Picture: return {};
-    case Shown::Kind::Aov: return aovChoice(from, pane);
+    case Shown::Kind::Image: return imageChoice(from, pane);
     case Shown::Kind::Pass: return pane == from.state.panes.active ? passChoice(from) : Choice{};
-    case Shown::Kind::Oracle: return oracleChoice(from, pane);
     }
     return {};
 }
 
-const GpuTexture* Pictures::developed(const Sources& from, Slot& slot, const GpuTexture& image,
-                                      const DebugViewParams& params) {
+const GpuTexture* Pictures::mapped(const Sources& from, Slot& slot, const GpuTexture& image,
+                                   const DebugViewParams& params) {
     const glm::ivec2 size = from.renderer.size();
     if (slot.picture.size() != size) {
         slot.picture = GpuTexture("debug view", PixelFormat::RGBA8, size);
@@ -173,7 +147,7 @@ const GpuTexture* Pictures::of(const Sources& from, std::size_t pane) {
         return &from.renderer.display(pane);
     if (choice.image->format() == PixelFormat::RGBA8)
         return choice.image;
-    return developed(from, slots_[pane], *choice.image, choice.params);
+    return mapped(from, slots_[pane], *choice.image, choice.params);
 }
 
 // Of what both panes show; where that cannot be subtracted, of the linear pictures.
@@ -209,11 +183,8 @@ Pictures::Subtraction Pictures::subtractionFor(const Sources& from) const {
     params.high = std::max(range, 1e-9f) / panes.gain;
     params.low = scalar ? -params.high : 0.0f;
     PictureLegend& legend = result.shown.legend;
-    legend.display = ImageDisplay{.name = "difference",
-                                  .map = params.map,
-                                  .low = params.low,
-                                  .high = params.high,
-                                  .unit = a.legend.display ? a.legend.display->unit : ""};
+    legend.display = ImageDisplay{params.map, params.low, params.high,
+                                  a.legend.display ? a.legend.display->unit : ""};
     if (legend.name.empty())
         legend.meaning = "linear radiance of the one picture minus the other, without its sign";
     legend.name = legend.name.empty() ? "difference" : "difference of " + legend.name;
@@ -234,9 +205,9 @@ const GpuTexture* Pictures::difference(const Sources& from) {
         difference_.run(context, *wanted.first, *wanted.second, differences_,
                         wanted.shown.params.map == kMapSigned ? Difference::Signed
                                                               : Difference::Absolute);
-        slot.version = 0; // to be developed
+        slot.version = 0; // to be mapped
     }
-    return developed(from, slot, differences_, wanted.shown.params);
+    return mapped(from, slot, differences_, wanted.shown.params);
 }
 
 PictureLegend Pictures::legendOf(const Sources& from, std::size_t pane) const {

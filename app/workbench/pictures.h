@@ -44,6 +44,8 @@ private:
         const GpuTexture* image = nullptr; ///< null: the picture
         gpu::DebugViewParams params{};
         PictureLegend legend;
+
+        void show(const AovSource& source, const ImageDisplay& display, glm::ivec2 picture);
     };
     struct Slot {
         GpuTexture picture;
@@ -52,9 +54,8 @@ private:
         gpu::DebugViewParams params{};
     };
     Choice choiceFor(const Sources& from, std::size_t pane) const;
-    Choice aovChoice(const Sources& from, std::size_t pane) const;
+    Choice imageChoice(const Sources& from, std::size_t pane) const;
     Choice passChoice(const Sources& from) const;
-    Choice oracleChoice(const Sources& from, std::size_t pane) const;
     /// The two images of a difference, and how the result is shown.
     struct Subtraction {
         Choice shown;
@@ -62,8 +63,8 @@ private:
     };
     Subtraction subtractionFor(const Sources& from) const;
     const GpuTexture* difference(const Sources& from);
-    const GpuTexture* developed(const Sources& from, Slot& slot, const GpuTexture& image,
-                                const gpu::DebugViewParams& params);
+    const GpuTexture* mapped(const Sources& from, Slot& slot, const GpuTexture& image,
+                             const gpu::DebugViewParams& params);
 
     DebugViewPass debugView_;
     DifferencePass difference_;

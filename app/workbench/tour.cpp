@@ -245,7 +245,7 @@ void showImage(ViewState& state, const std::string& name) {
     if (name.empty())
         return show(state, Shown::Kind::Picture);
     const auto index = std::size_t(&aovByName(name) - aovs().data());
-    show(state, Shown::Kind::Aov, index);
+    show(state, Shown::Kind::Image, index);
     state.displays.at(index) = imageDisplays(state.extent).at(index); // its range may have been set
 }
 

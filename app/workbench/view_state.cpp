@@ -12,32 +12,6 @@ namespace afterglow {
 namespace {
 
 constexpr double kNoticeSeconds = 5.0;
-constexpr std::string_view kRadiance = "radiance";
-
-struct OracleRow {
-    std::string_view name, meaning;
-    ImageDisplay display;
-};
-const std::array<OracleRow, kOracleImages> kOracleRows{{
-    {"error",
-     "luminance of the picture minus that of the reference: orange is too bright, blue too dark",
-     {"error", gpu::kMapSigned, -0.2f, 0.2f, kRadiance}},
-    {"reference",
-     "the converged picture of this frame, without emission",
-     {"reference", gpu::kMapRadiance, 0.0f, 1.0f, kRadiance}},
-    {"ideal lambda",
-     "the share of the light that truly changed in each stratum since the frame before",
-     {"ideal lambda", gpu::kMapScalar, 0.0f, 1.0f, ""}},
-    {"lambda error",
-     "lambda minus the ideal one: orange are false alarms, blue is change that was missed",
-     {"lambda error", gpu::kMapSigned, -1.0f, 1.0f, ""}},
-    {"ideal alpha",
-     "the weight of the newest sample that leaves the least expected error",
-     {"ideal alpha", gpu::kMapScalar, 0.0f, 1.0f, ""}},
-    {"alpha error",
-     "alpha minus the ideal one: orange is needless noise, blue is lag",
-     {"alpha error", gpu::kMapSigned, -1.0f, 1.0f, ""}},
-}};
 
 int wrapped(int index, int count) {
     return ((index % count) + count) % count;
@@ -91,13 +65,6 @@ std::vector<Camera> stations(const ViewState& state) {
 
 } // namespace
 
-std::string_view nameOf(OracleImage image) {
-    return kOracleRows[std::size_t(image)].name;
-}
-std::string_view describe(OracleImage image) {
-    return kOracleRows[std::size_t(image)].meaning;
-}
-
 ViewState startState(const Scene& scene, const Settings& settings, std::string_view camera) {
     ViewState state;
     state.panes = startPanes(settings);
@@ -118,8 +85,6 @@ void enterScene(ViewState& state, const Scene& scene, std::string_view camera) {
     state.speed = defaultSpeed(state.extent);
     state.isAnimated = duration(scene) > 0.0;
     state.displays = imageDisplays(state.extent);
-    for (std::size_t i = 0; i < kOracleImages; ++i)
-        state.oracleDisplays[i] = kOracleRows[i].display;
     if (state.frozen)
         toggleFreeze(state);
     startOver(state.time);
@@ -225,13 +190,14 @@ void goToBookmark(ViewState& state, std::size_t index) {
 }
 
 void cycleImage(ViewState& state, int step) {
-    const int count = int(state.displays.size()) + 1; // 0 is the picture
-    int place = state.shown.kind == Shown::Kind::Aov ? int(state.shown.index) + 1 : 0;
+    const int count = int(aovs().size()) + 1; // 0 is the picture
+    const bool isAov = state.shown.kind == Shown::Kind::Image && !state.shown.isTruth();
+    int place = isAov ? int(state.shown.index) + 1 : 0;
     for (int tried = 0; tried < count; ++tried) {
         place = wrapped(place + step, count);
         if (place == 0)
             return show(state, Shown::Kind::Picture);
-        show(state, Shown::Kind::Aov, std::size_t(place - 1));
+        show(state, Shown::Kind::Image, std::size_t(place - 1));
         if (shownAov(state, state.panes.active))
             return;
     }
@@ -258,10 +224,10 @@ void toggleFreeze(ViewState& state) {
         state.pausedBefore = state.time.paused;
         state.time.paused = true;
         state.time.stepsLeft = 0;
-        return show(state, Shown::Kind::Oracle, std::size_t(OracleImage::Error));
+        return show(state, Shown::Kind::Image, aovs().size()); // the first of the truth
     }
     state.time.paused = state.pausedBefore;
-    if (state.shown.kind == Shown::Kind::Oracle)
+    if (state.shown.isTruth())
         show(state, Shown::Kind::Picture);
 }
 
@@ -327,11 +293,10 @@ std::size_t shownSignal(const ViewState& state, std::size_t signals) {
 }
 
 std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane) {
-    if (state.shown.kind != Shown::Kind::Aov)
-        return {};
-    const AovInfo& aov = aovs()[state.shown.index];
-    return isMadeBy(aov, state.panes.all.at(pane).settings) ? std::optional(state.shown.index)
-                                                            : std::nullopt;
+    const Shown& shown = state.shown;
+    const bool isMade = shown.kind == Shown::Kind::Image &&
+                        isMadeBy(images()[shown.index], state.panes.all.at(pane).settings);
+    return isMade ? std::optional(shown.index) : std::nullopt;
 }
 
 std::filesystem::path freePath(const std::filesystem::path& folder, std::string_view stem,

@@ -32,28 +32,16 @@ struct Notice {
 struct Shown {
     enum class Kind {
         Picture, ///< the denoised picture
-        Aov,     ///< `index` into aovs() and ViewState::displays
+        Image,   ///< `index` into images() and ViewState::displays
         Pass,    ///< `index` of what the passes of the frame made, one after the other
-        Oracle,  ///< `index`: an OracleImage; of a frozen frame
     };
     Kind kind = Kind::Picture;
     std::size_t index = 0;
 
+    /// An image of a frozen frame, which is there once its reference has converged.
+    bool isTruth() const { return kind == Kind::Image && afterglow::isTruth(index); }
     bool operator==(const Shown&) const = default;
 };
-
-/// What can be said of a frozen frame once its reference has converged.
-enum class OracleImage {
-    Error,       ///< luminance of the picture minus that of the reference
-    Reference,   ///< the converged picture
-    Lambda,      ///< what lambda would be if the truth were known
-    LambdaError, ///< lambda minus that
-    Alpha,       ///< what alpha would be
-    AlphaError,  ///< alpha minus that: orange is needless noise, blue is lag
-};
-inline constexpr std::size_t kOracleImages = 6;
-std::string_view nameOf(OracleImage image); ///< "error", "reference", "ideal lambda", ...
-std::string_view describe(OracleImage image);
 
 /// A probe, as it was set on a picture of that size.
 struct PlacedProbe {
@@ -108,8 +96,7 @@ struct ViewState {
     Resolution resolution;
     Shown shown;
     std::size_t signal = 0; ///< whose images, lambda and history are looked at; see shownSignal()
-    std::vector<ImageDisplay> displays;                     ///< by AOV
-    std::array<ImageDisplay, kOracleImages> oracleDisplays; ///< by OracleImage
+    std::vector<ImageDisplay> displays; ///< by images()
 
     std::array<std::optional<PlacedProbe>, kProbes> probes;
     std::size_t activeProbe = 0;
@@ -160,7 +147,7 @@ void cycleImage(ViewState& state, int step);
 void show(ViewState& state, Shown::Kind kind, std::size_t index = 0);
 void setProbe(ViewState& state, std::size_t index, const Probe& probe, glm::ivec2 image);
 void clearProbes(ViewState& state);
-void toggleFreeze(ViewState& state); ///< also pauses; leaves oracle images when it ends
+void toggleFreeze(ViewState& state); ///< also pauses; leaves images of the truth when it ends
 void stopTake(ViewState& state);     ///< its camera and lights become the person's
 void toggleRepeat(ViewState& state);
 void notify(ViewState& state, std::string text, bool isError = false);

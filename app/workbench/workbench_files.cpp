@@ -33,14 +33,6 @@ PaneLayout layoutFor(std::size_t variants) {
     return variants == 2 ? PaneLayout::TwoUp : PaneLayout::FourUp;
 }
 
-/// As readAov() gives an image of one channel.
-Image<glm::vec4> inColors(const Image<float>& values) {
-    Image<glm::vec4> result(values.size());
-    std::ranges::transform(values.pixels(), result.pixels().begin(),
-                           [](float value) { return glm::vec4(value, 0.0f, 0.0f, 0.0f); });
-    return result;
-}
-
 } // namespace
 
 void Workbench::Impl::attempt(const std::function<void()>& action) {
@@ -96,21 +88,18 @@ void Workbench::Impl::serveRequests() {
 
 void Workbench::Impl::fitRange() {
     const std::size_t pane = state.panes.active, index = state.shown.index;
-    const std::size_t signal = shownSignal(state, renderer.signals().size());
-    if (state.shown.kind == Shown::Kind::Aov && renderer.ran(pane) &&
-        isMadeBy(aovs()[index], renderer.ran(pane)->settings))
-        state.displays[index] =
-            fittedTo(readAov(renderer, aovs()[index], pane, signal), state.displays[index]);
-    if (state.shown.kind != Shown::Kind::Oracle)
+    if (state.shown.kind != Shown::Kind::Image || !renderer.ran(pane))
         return;
-    const GpuTexture* const image = oracle.image(OracleImage(state.shown.index), pane, signal);
-    if (!image)
-        return notify(state, "There is nothing yet that a range could be fitted to", true);
-    ImageDisplay& display = state.oracleDisplays[state.shown.index];
-    if (image->format() == PixelFormat::RGBA32F)
+    const std::size_t signal = shownSignal(state, renderer.signals().size());
+    ImageDisplay& display = state.displays[index];
+    if (!isTruth(index)) {
+        if (isMadeBy(images()[index], renderer.ran(pane)->settings))
+            display = fittedTo(readAov(renderer, images()[index], pane, signal), display);
+    } else if (const GpuTexture* const image = oracle.image(index - aovs().size(), pane, signal)) {
         display = fittedTo(image->read<glm::vec4>(), display);
-    else
-        display = fittedTo(inColors(image->read<float>()), display);
+    } else {
+        notify(state, "There is nothing yet that a range could be fitted to", true);
+    }
 }
 
 Image<glm::u8vec4> Workbench::Impl::composedView() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/filters/aov_info.h"
 #include "renderer/filters/filter_settings.h"
 #include "renderer/gl/shader_library.h"
 #include "renderer/resources/render_targets.h"
@@ -9,15 +10,6 @@
 #include <string_view>
 
 namespace afterglow {
-
-/// An arbitrary output variable: one image of the frame that can be looked at and written to a
-/// file.
-struct AovInfo {
-    std::string_view name;
-    std::string_view meaning;  ///< with its unit
-    std::string_view channels; ///< names of the channels in a file: "RGB", "Y", "XYZ", "XY"
-    bool perStratum = false;   ///< ceil(W/3) x ceil(H/3) instead of W x H
-};
 
 /// The work that a frame does for a filter before it runs.
 struct FilterNeeds {

@@ -56,34 +56,38 @@ std::size_t blend(S s) {
     return blendOf(makePlan(s));
 }
 
-constexpr bool kPerStratum = true;
+using G = ImageGroup;
 
 // clang-format off
 constexpr std::array kAovs = std::to_array<FilterAov>({
-    {{"filtered", "the signal after the filter, without albedo, radiance", "RGB"}, always, at<kFilterResult>},
-    {{"variance", "variance of the filtered signal's luminance, as estimated, radiance squared", "Y"},
-     whereFiltered, at<kFilterResult>, 3},
-    {{"accumulated", "the signal after temporal and before spatial filtering, radiance", "RGB"},
-     whereAccumulated, blend},
-    {{"history_luminance", "luminance of the history as fetched, 0 without one, radiance", "Y"},
-     whereAccumulated, blend, 3},
-    {{"moments", "running means of the raw luminance and of its square", "XY"}, whereAccumulated, at<kMoments>},
-    {{"history", "length of the history as the history law counts it, frames", "Y"},
-     whereAccumulated, at<kMoments>, 2},
-    {{"alpha", "weight of the newest frame in the blend, [0, 1]", "Y"}, whereAccumulated, at<kControl>, 1},
+    {{"filtered", "the signal after the filter, without albedo, radiance", "RGB", G::Filter, radiance(), kPerSignal},
+     always, at<kFilterResult>},
+    {{"variance", "variance of the filtered signal's luminance, as estimated, radiance squared", "Y",
+      G::Filter, logarithmic(1e-5f, 1.0f, "radiance squared"), kPerSignal}, whereFiltered, at<kFilterResult>, 3},
+    {{"accumulated", "the signal after temporal and before spatial filtering, radiance", "RGB",
+      G::Filter, radiance(), kPerSignal}, whereAccumulated, blend},
+    {{"history_luminance", "luminance of the history as fetched, 0 without one, radiance", "Y",
+      G::Filter, linear(0.0f, 1.0f, "radiance"), kPerSignal}, whereAccumulated, blend, 3},
+    {{"moments", "running means of the raw luminance and of its square", "XY",
+      G::History, logarithmic(1e-3f, 10.0f, "radiance"), kPerSignal}, whereAccumulated, at<kMoments>},
+    {{"history", "length of the history as the history law counts it, frames", "Y",
+      G::History, logarithmic(1.0f, 128.0f, "frames"), kPerSignal}, whereAccumulated, at<kMoments>, 2},
+    {{"alpha", "weight of the newest frame in the blend, [0, 1]", "Y", G::History, linear(0.0f, 1.0f), kPerSignal},
+     whereAccumulated, at<kControl>, 1},
     {{"reason", "why there is no history: 0 there is, 1 first frame, 2 off screen, 3 another "
-      "instance, 4 depth, 5 normal", "Y"}, whereAccumulated, at<kControl>, 3},
-    {{"lambda", "relative temporal change as fetched at the pixel, [0, 1]", "Y"}, whereLambda, at<kControl>},
-    {{"lambda_strata", "relative temporal change per stratum of 3x3 pixels, [0, 1]", "Y", kPerStratum},
-     whereAdaptive, at<kLambda>},
+      "instance, 4 depth, 5 normal", "Y", G::History, numbersUpTo(5.0f), kPerSignal}, whereAccumulated, at<kControl>, 3},
+    {{"lambda", "relative temporal change as fetched at the pixel, [0, 1]", "Y",
+      G::Change, linear(0.0f, 1.0f), kPerSignal}, whereLambda, at<kControl>},
+    {{"lambda_strata", "relative temporal change per stratum of 3x3 pixels, [0, 1]", "Y",
+      G::Change, linear(0.0f, 1.0f), kPerSignal, kPerStratum}, whereAdaptive, at<kLambda>},
     {{"gradient", "reconstructed change of luminance (delta), or its size, per stratum, radiance", "Y",
-      kPerStratum}, whereReconstructed, at<kGradient0>},
-    {{"gradient_max", "reconstructed larger luminance of the two frames (Delta) per stratum, radiance",
-      "Y", kPerStratum}, whereReconstructed, at<kGradient0>, 1},
-    {{"gradient_sample", "change of luminance at each stratum's sample, or its size, as measured, radiance",
-      "Y", kPerStratum}, whereAdaptive, at<kGradientSamples>},
-    {{"gradient_sample_max", "larger luminance of the two frames at each stratum's sample, radiance",
-      "Y", kPerStratum}, whereAdaptive, at<kGradientSamples>, 1},
+      G::Change, aroundZero(0.5f, "radiance"), kPerSignal, kPerStratum}, whereReconstructed, at<kGradient0>},
+    {{"gradient_max", "reconstructed larger luminance of the two frames (Delta) per stratum, radiance", "Y",
+      G::Change, linear(0.0f, 1.0f, "radiance"), kPerSignal, kPerStratum}, whereReconstructed, at<kGradient0>, 1},
+    {{"gradient_sample", "change of luminance at each stratum's sample, or its size, as measured, radiance", "Y",
+      G::Change, aroundZero(0.5f, "radiance"), kPerSignal, kPerStratum}, whereAdaptive, at<kGradientSamples>},
+    {{"gradient_sample_max", "larger luminance of the two frames at each stratum's sample, radiance", "Y",
+      G::Change, linear(0.0f, 1.0f, "radiance"), kPerSignal, kPerStratum}, whereAdaptive, at<kGradientSamples>, 1},
 });
 // clang-format on
 

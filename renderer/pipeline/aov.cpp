@@ -14,41 +14,43 @@ namespace {
 struct Row {
     AovInfo info;
     AovSource (*source)(const Renderer&, std::size_t state, std::size_t signal);
-    bool perSignal = false;
-    bool needsSamples = false;
 };
 
 using R = const Renderer&;
-constexpr bool kPerStratum = true;
+using G = ImageGroup;
 
 // clang-format off
 const std::array kRows = std::to_array<Row>({
-    {{"color", "linear radiance: the filtered signal times albedo, plus emission", "RGB"},
+    {{"color", "linear radiance: the filtered signal times albedo, plus emission", "RGB", G::Light, radiance()},
      [](R r, std::size_t i, std::size_t) { return AovSource{r.targets().filters[i].composed}; }},
-    {{"raw", "the signal as traced, one sample a pixel, without albedo, radiance", "RGB"},
-     [](R r, std::size_t, std::size_t s) { return AovSource{r.targets().signals[s].raw.current()}; }, true},
-    {{"albedo", "diffuse reflectance of the surface, [0, 1]", "RGB"},
+    {{"raw", "the signal as traced, one sample a pixel, without albedo, radiance", "RGB", G::Light, radiance(), kPerSignal},
+     [](R r, std::size_t, std::size_t s) { return AovSource{r.targets().signals[s].raw.current()}; }},
+    {{"albedo", "diffuse reflectance of the surface, [0, 1]", "RGB", G::Surfaces, {gpu::kMapRadiance}},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.albedo}; }},
-    {{"emission", "what the surface itself emits, radiance", "RGB"},
+    {{"emission", "what the surface itself emits, radiance", "RGB", G::Surfaces, radiance(10.0f)},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.emission}; }},
-    {{"normal", "world-space shading normal, unit length", "XYZ"},
+    {{"normal", "world-space shading normal, unit length", "XYZ", G::Surfaces, {gpu::kMapVector, -1.0f, 1.0f}},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.guides}; }},
-    {{"depth", "distance along the view axis, metres; 0 is background", "Y"},
+    {{"depth", "distance along the view axis, metres; 0 is background", "Y", G::Surfaces,
+      {gpu::kMapScalar, 0.0f, 0.6f, "m", true}},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.guides, 3}; }},
-    {{"position", "of the surface in the world, metres", "XYZ"},
+    {{"position", "of the surface in the world, metres", "XYZ", G::Surfaces, {gpu::kMapRepeat, 0.0f, 0.04f, "m", true}},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.surface, 0, true}; }},
-    {{"slope", "change of depth along x and y, metres per pixel", "XY"},
+    {{"slope", "change of depth along x and y, metres per pixel", "XY", G::Surfaces,
+      {gpu::kMapDirection, 0.0f, 0.002f, "m per pixel", true}},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.slope}; }},
-    {{"motion", "from the pixel to where its surface was a frame ago, pixels", "XY"},
+    {{"motion", "from the pixel to where its surface was a frame ago, pixels", "XY", G::Surfaces,
+      {gpu::kMapDirection, 0.0f, 8.0f, "pixels"}},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.motion}; }},
-    {{"instance", "number of the instance from 1; 0 is background", "Y"},
+    {{"instance", "number of the instance from 1; 0 is background", "Y", G::Surfaces, numbersUpTo(1.0f)},
      [](R r, std::size_t, std::size_t) { return AovSource{r.targets().surfaces.visibility}; }},
-    {{"samples", "where in the stratum its gradient sample landed, 1 + x + 3y; 0 is none", "Y", kPerStratum},
-     [](R r, std::size_t, std::size_t) { return AovSource{r.targets().samples, 1}; }, false, true},
+    {{"samples", "where in the stratum its gradient sample landed, 1 + x + 3y; 0 is none", "Y",
+      G::Samples, numbersUpTo(9.0f), false, kPerStratum},
+     [](R r, std::size_t, std::size_t) { return AovSource{r.targets().samples, 1}; }},
     {{"fate", "what became of the sample that each stratum of the frame before offered: 1 carried, 2 "
       "background, 3 a gradient sample itself, 4 off screen, 5 another instance, 6 depth, 7 lost the "
-      "race", "Y", kPerStratum},
-     [](R r, std::size_t, std::size_t) { return AovSource{r.targets().samples, 3}; }, false, true},
+      "race", "Y", G::Samples, numbersUpTo(7.0f), false, kPerStratum},
+     [](R r, std::size_t, std::size_t) { return AovSource{r.targets().samples, 3}; }},
 });
 // clang-format on
 
@@ -113,15 +115,10 @@ const AovInfo& aovByName(std::string_view name) {
 
 bool isMadeBy(const AovInfo& aov, const FilterSettings& settings) {
     if (const Row* row = frameRow(aov))
-        return !row->needsSamples || needsOf(settings).samples;
+        return row->info.group != ImageGroup::Samples || needsOf(settings).samples;
     return std::ranges::any_of(familyOf(settings.filter).aovs, [&](const FilterAov& own) {
         return own.info.name == aov.name && own.isMade(settings);
     });
-}
-
-bool isPerSignal(const AovInfo& aov) {
-    const Row* row = frameRow(aov);
-    return !row || row->perSignal;
 }
 
 AovSource sourceOf(const Renderer& renderer, const AovInfo& aov, std::size_t state,
@@ -149,7 +146,7 @@ Image<glm::vec4> readAov(const Renderer& renderer, const AovInfo& aov, std::size
 
 std::string fileStem(const AovInfo& aov, const SignalInfo& signal, std::size_t signals) {
     std::string stem(aov.name);
-    if (signals > 1 && isPerSignal(aov))
+    if (signals > 1 && aov.perSignal)
         stem += "_" + std::string(signal.name);
     return stem;
 }

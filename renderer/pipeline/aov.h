@@ -16,8 +16,6 @@ const AovInfo& aovByName(std::string_view name);
 
 /// Returns whether a frame with this filter has the AOV.
 bool isMadeBy(const AovInfo& aov, const FilterSettings& settings);
-/// Returns whether each signal of a frame has its own image of it.
-bool isPerSignal(const AovInfo& aov);
 
 /// Where the frame keeps an AOV: AovInfo::channels.size() channels of a texture, from one on.
 struct AovSource {

@@ -153,7 +153,7 @@ TEST_CASE("a difference of a filter with itself is black, and of two filters it 
     // Of an image behind the picture, with its sign: gray is no difference.
     const auto all = aovs();
     const auto showNamed = [&](std::string_view name) {
-        show(bench.state, Shown::Kind::Aov,
+        show(bench.state, Shown::Kind::Image,
              std::size_t(std::ranges::find(all, name, &AovInfo::name) - all.begin()));
         bench.frames(1);
         CHECK(bench.workbench.picture(0));

@@ -192,11 +192,11 @@ TEST_CASE("stepping goes from pass to pass of one frame and then to the next fra
     const std::uint32_t frame = bench.state.time.frame;
     const std::size_t count = bench.workbench.passes().made().size();
     CHECK(count > 20);
-    CHECK(bench.workbench.passes().made().front().pass == "visibility");
-    CHECK(bench.workbench.passes().made().back().pass == "tone map");
+    CHECK(bench.workbench.passes().made().front().pass() == "visibility");
+    CHECK(bench.workbench.passes().made().back().pass() == "tone map");
     const auto named = [&](std::string_view pass) {
         return std::ranges::any_of(bench.workbench.passes().made(),
-                                   [&](const PassCapture::Made& m) { return m.pass == pass; });
+                                   [&](const PassCapture::Made& m) { return m.pass() == pass; });
     };
     CHECK(named("a-trous 5"));
     CHECK(named("temporal"));
@@ -274,19 +274,21 @@ TEST_CASE("a frozen moment converges, is compared, and lives on as if nothing ha
     REQUIRE(rmse);
     CHECK(*rmse > 0.0);
     CHECK(*rmse < 0.5);
-    for (std::size_t i = 0; i < kOracleImages; ++i) {
-        show(bench.state, Shown::Kind::Oracle, i);
-        CAPTURE(nameOf(OracleImage(i)));
+    const std::size_t error = aovs().size();
+    for (std::size_t i = error; i < images().size(); ++i) {
+        show(bench.state, Shown::Kind::Image, i);
+        CAPTURE(images()[i].name);
         CHECK(bench.workbench.legend(0).note.empty());
         CHECK(differingPixels(bench.picture(0), judge.picture(0)) > 500);
     }
     // A range is fitted to what is shown, and more samples are another reference.
-    show(bench.state, Shown::Kind::Oracle, std::size_t(OracleImage::Error));
-    const ImageDisplay wide = bench.state.oracleDisplays[0];
+    show(bench.state, Shown::Kind::Image, error);
+    const ImageDisplay& shown = bench.state.displays[error];
+    const ImageDisplay wide = shown;
     bench.state.wanted.fitRange = true;
     bench.round();
-    CHECK_FALSE(bench.state.oracleDisplays[0] == wide);
-    CHECK(bench.state.oracleDisplays[0].low == -bench.state.oracleDisplays[0].high);
+    CHECK_FALSE(shown == wide);
+    CHECK(shown.low == -shown.high);
     bench.state.oracleSamples = 2;
     bench.round();
     CHECK(bench.workbench.oracle().samples() == 2);
@@ -316,7 +318,7 @@ TEST_CASE("in the first frame of a loop's round the truth looks back to before t
         toggleFreeze(bench.state);
         while (!bench.workbench.oracle().isDone())
             bench.round();
-        show(bench.state, Shown::Kind::Oracle, std::size_t(OracleImage::Lambda));
+        show(bench.state, Shown::Kind::Image, aovs().size() + 2); // ideal lambda
         const double mean = meanOf(bench.picture(0));
         toggleFreeze(bench.state);
         return mean;

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -142,26 +141,4 @@ TEST_CASE("the fingerprint of the shaders is that of their text") {
     const ShaderLibrary defined(ShaderSource::embedded(), {{"SOMETHING", "1"}});
     const ShaderLibrary plain(ShaderSource::embedded());
     CHECK(defined.fingerprint(lighting) != plain.fingerprint(lighting));
-}
-
-TEST_CASE("a reference has the same bits whatever the portions its samples are added in") {
-    const GlCheck noGlMessages;
-    constexpr int kSamples = 45;
-    Studio studio(makeMoving(), kOddSize);
-    const FrameInput now = studio.at(1.1), then = studio.at(1.0);
-    std::vector<int> told;
-    const Reference made = converge(studio.renderer, now, then, studio.settings, kSamples,
-                                    [&](int samples) { told.push_back(samples); });
-    CHECK(told.front() == 1);
-    CHECK(std::accumulate(told.begin(), told.end(), 0) == kSamples);
-    for (const int portion : {1, 7, kSamples}) {
-        CAPTURE(portion);
-        studio.renderer.beginReference(now, then, studio.settings);
-        for (int done = 0; done < kSamples; done += portion)
-            studio.renderer.addReferenceSamples(std::min(portion, kSamples - done));
-        studio.renderer.finishReference();
-        CHECK(differingPixels(studio.renderer.filteredSignal().read<glm::vec4>(),
-                              made.signals[0]) == 0);
-        CHECK(studio.renderer.readStats().rays == made.rays);
-    }
 }

@@ -201,7 +201,8 @@ TEST_CASE("a frozen moment is held, and playing goes on after it") {
         ViewState state = running();
         press(state, 'U');
         CHECK(state.frozen);
-        CHECK(state.shown == Shown{Shown::Kind::Oracle, std::size_t(OracleImage::Error)});
+        CHECK(state.shown == Shown{Shown::Kind::Image, aovs().size()});
+        CHECK(images()[state.shown.index].name == "error");
         CHECK_FALSE(wantsFrame(state.time, 1e3));
         press(state, stroke);
         CHECK_FALSE(state.frozen);
@@ -213,10 +214,10 @@ TEST_CASE("a frozen moment is held, and playing goes on after it") {
 TEST_CASE("a step out of a frozen moment is one frame, and an image of the frame stays") {
     ViewState state = running();
     press(state, 'U');
-    show(state, Shown::Kind::Aov, 2);
+    show(state, Shown::Kind::Image, 2);
     press(state, 'N');
     CHECK_FALSE(state.frozen);
-    CHECK(state.shown == Shown{Shown::Kind::Aov, 2});
+    CHECK(state.shown == Shown{Shown::Kind::Image, 2});
     renderFrame(state);
     CHECK_FALSE(wantsFrame(state.time, 1e3));
 }
@@ -244,15 +245,15 @@ TEST_CASE("all views of the truth come around, and none is left when time goes o
     ViewState state = running();
     const KeyStroke next{.key = keyOf('U'), .shift = true};
     std::set<std::size_t> seen;
-    for (std::size_t i = 0; i < kOracleImages; ++i) {
+    for (std::size_t i = aovs().size(); i < images().size(); ++i) {
         press(state, next);
         CHECK(state.frozen);
-        CHECK(state.shown.kind == Shown::Kind::Oracle);
+        CHECK(state.shown.isTruth());
         seen.insert(state.shown.index);
     }
-    CHECK(seen.size() == kOracleImages);
+    CHECK(seen.size() == 6);
     press(state, next);
-    CHECK(state.shown.index == 0);
+    CHECK(state.shown.index == aovs().size());
 }
 
 TEST_CASE("a take has its own camera and lights, and who leaves it goes on with them") {

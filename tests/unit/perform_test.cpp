@@ -162,15 +162,15 @@ std::vector<Row> viewRows() {
     using enum Action;
     const auto half = [](ViewState& state) { state.resolution.scale = 0.5f; };
     return {
-        {plain('V'), NextImage, {"shown=1 0"}},
+        {plain('V'), NextImage, {"shown=color"}},
         {shift('V'), PreviousImage, {"shown=0 0"}, [](ViewState& s) { cycleImage(s, 1); }},
         {plain('B'), ShowPicture, {"shown=0 0"}, [](ViewState& s) { cycleImage(s, 2); }},
         {plain('='), FinerPixels, {"resolution=true 0.75 640 360"}, half},
         {plain('-'), CoarserPixels, {"resolution=true 0.25 640 360"}, half},
-        {plain('U'), Freeze, {"frozen=true", "paused=true", "shown=3 0"}},
+        {plain('U'), Freeze, {"frozen=true", "paused=true", "shown=error"}},
         {plain('U'), Freeze, {"frozen=false", "paused=false", "shown=0 0"}, freeze},
-        {shift('U'), NextOracle, {"frozen=true", "paused=true", "shown=3 0"}},
-        {shift('U'), NextOracle, {"shown=3 1"}, freeze},
+        {shift('U'), NextOracle, {"frozen=true", "paused=true", "shown=error"}},
+        {shift('U'), NextOracle, {"shown=reference"}, freeze},
     };
 }
 

@@ -115,11 +115,11 @@ void addView(Facts& facts, const ViewState& state) {
     facts["seed"] = text(state.seed);
     facts["resolution"] =
         text(state.resolution.followWindow, state.resolution.scale, text(state.resolution.fixed));
-    facts["shown"] = text(int(state.shown.kind), state.shown.index);
+    facts["shown"] = state.shown.kind == Shown::Kind::Image
+                         ? std::string(images()[state.shown.index].name)
+                         : text(int(state.shown.kind), state.shown.index);
     std::string ranges;
     for (const auto& display : state.displays)
-        ranges += text(display.map, display.low, display.high) + ", ";
-    for (const auto& display : state.oracleDisplays)
         ranges += text(display.map, display.low, display.high) + ", ";
     facts["ranges"] = ranges;
     for (std::size_t i = 0; i < kProbes; ++i)

@@ -65,7 +65,7 @@ TEST_CASE(
         std::set<std::size_t> seen;
         for (std::size_t i = 0; i < made; ++i) {
             cycleImage(state, 1);
-            REQUIRE(state.shown.kind == Shown::Kind::Aov);
+            REQUIRE(state.shown.kind == Shown::Kind::Image);
             CHECK(shownAov(state, 0) == state.shown.index);
             seen.insert(state.shown.index);
         }
@@ -73,14 +73,13 @@ TEST_CASE(
         cycleImage(state, 1);
         CHECK(state.shown == Shown{});
         cycleImage(state, -1);
-        CHECK(state.shown.kind == Shown::Kind::Aov);
+        CHECK(state.shown.kind == Shown::Kind::Image);
     }
 }
 
 TEST_CASE("an image that a pane's filter does not make is its picture, until the filter makes it") {
     ViewState state = cornellState();
-    while (state.shown.kind != Shown::Kind::Aov ||
-           state.displays[state.shown.index].name != "lambda")
+    while (state.shown.kind != Shown::Kind::Image || images()[state.shown.index].name != "lambda")
         cycleImage(state, 1);
     CHECK(shownAov(state, 0));
     CHECK_FALSE(shownAov(state, 1)); // SVGF
