@@ -4,21 +4,19 @@
 #include "renderer/base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
 
 constexpr std::string_view kHead = "variant,frame,metric,value";
 
-std::array<char, 40> written(double value) {
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.9g", value);
-    return text;
+std::string written(double value) {
+    return fmt::format("{:.9g}", value);
 }
 
 /// Cuts off the text before the next comma.
@@ -35,7 +33,7 @@ void MetricsTable::add(std::string_view variant, int frame, std::string_view met
     if (!metricNamed(metric).isOfFrames())
         throw std::logic_error(std::string(metric) + " is a metric of runs, not of frames");
     rows_.push_back({std::string(variant), frame, std::string(metric),
-                     std::strtod(written(value).data(), nullptr)});
+                     std::strtod(written(value).c_str(), nullptr)});
 }
 
 void MetricsTable::append(const MetricsTable& other) {
@@ -62,8 +60,8 @@ std::string MetricsTable::csv(const std::vector<std::string>& variants) const {
                              [&](const Row* a, const Row* b) { return place(*a) < place(*b); });
     std::string text = std::string(kHead) + "\n";
     for (const Row* row : sorted)
-        text += row->variant + "," + std::to_string(row->frame) + "," + row->metric + "," +
-                written(row->value).data() + "\n";
+        text += fmt::format("{},{},{},{}\n", row->variant, row->frame, row->metric,
+                            written(row->value));
     return text;
 }
 
@@ -74,8 +72,7 @@ MetricsTable MetricsTable::parse(std::string_view csv, std::string_view source) 
         std::string_view line = csv.substr(0, end);
         csv.remove_prefix(std::min(end + 1, csv.size()));
         const auto refuse = [&] {
-            throw InputError(std::string(source) + ":" + std::to_string(number) +
-                             ": not a row of \"" + std::string(kHead) + "\"");
+            throw InputError(fmt::format("{}:{}: not a row of \"{}\"", source, number, kHead));
         };
         if (number == 1) {
             if (line != kHead)

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -10,11 +11,13 @@
 
 namespace afterglow {
 
+std::string base64(std::string_view bytes); ///< with padding, without line breaks
+
 /// The pictures of a page, each kept once however often it is shown.
 class PictureStore {
 public:
     /// Reads a PNG of what is shown as it is, and returns the picture's number. InputError names
-    /// the file.
+    /// the file. It becomes a JPEG of quality 90; the same picture gives the same bytes.
     int addPhoto(const std::filesystem::path& file);
 
     /// The same of a map, whose red channel holds values: exact if it has a value per stratum; a

@@ -1,12 +1,13 @@
 #include "app/report/report.h"
 
+#include "app/base/embedded.h"
 #include "app/measure/metric.h"
-#include "app/report/page.h"
 #include "app/report/run_folder.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <system_error>
 
 namespace afterglow {
@@ -32,6 +33,76 @@ std::vector<fs::path> runsIn(const fs::path& folder) {
                          ": neither a run (it has no experiment.json) nor a folder of runs");
     std::ranges::sort(runs);
     return runs;
+}
+
+std::string htmlText(std::string_view text) {
+    std::string escaped;
+    for (char c : text) {
+        switch (c) {
+        case '&': escaped += "&amp;"; break;
+        case '<': escaped += "&lt;"; break;
+        case '>': escaped += "&gt;"; break;
+        case '"': escaped += "&quot;"; break;
+        default: escaped += c;
+        }
+    }
+    return escaped;
+}
+
+/// JSON that cannot end the element it stands in, or open a comment there: "<" occurs in strings
+/// alone, where an escape says the same.
+std::string scriptJson(const Json& data) {
+    const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string escaped;
+    escaped.reserve(json.size());
+    for (char c : json) {
+        if (c == '<')
+            escaped += "\\u003c";
+        else
+            escaped += c;
+    }
+    return escaped;
+}
+
+/// The files of assets/report with this ending, one after the other.
+std::string assets(std::string_view ending) {
+    std::string bytes;
+    for (const EmbeddedFile& file : embeddedReport())
+        if (file.name.ends_with(ending))
+            bytes += file.bytes;
+    return bytes;
+}
+
+/// Returns the page: the document with its style and script, `data` as JSON for the script to read,
+/// and the pictures. Whatever the texts in `data` and the title hold, they stay texts.
+std::string reportPage(std::string_view title, const Json& data, const PictureStore& pictures) {
+    const auto part = [&](std::string_view name) -> std::string {
+        if (name == "title")
+            return htmlText(title);
+        if (name == "style")
+            return assets(".css");
+        if (name == "script")
+            return assets(".js");
+        if (name == "data")
+            return scriptJson(data);
+        if (name == "pictures")
+            return pictures.html();
+        throw std::logic_error("report.html: no part is named " + std::string(name));
+    };
+
+    std::string page;
+    const std::string html = assets(".html");
+    std::string_view rest = html;
+    for (auto open = rest.find("{{"); open != rest.npos; open = rest.find("{{")) {
+        const auto close = rest.find("}}", open);
+        if (close == rest.npos)
+            throw std::logic_error("report.html: {{ without }}");
+        page += rest.substr(0, open);
+        page += part(rest.substr(open + 2, close - open - 2));
+        rest.remove_prefix(close + 2);
+    }
+    page += rest;
+    return page;
 }
 
 } // namespace

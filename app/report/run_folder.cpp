@@ -3,6 +3,7 @@
 #include "app/base/json_reader.h"
 #include "app/base/output.h"
 #include "app/measure/metrics_table.h"
+#include "app/measure/run_outline.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 
@@ -35,12 +36,8 @@ Json readJson(const fs::path& file, Check check) {
 /// The parts of a run that decide which files there are.
 struct Plan {
     std::vector<std::string> variants;
-    glm::ivec2 size{0};        ///< of a frame
-    std::vector<int> pictures; ///< frames, rising
-    struct Reference {
-        int first, end;
-    };
-    std::vector<Reference> references;
+    glm::ivec2 size{0}; ///< of a frame
+    RunOutline outline;
 
     explicit Plan(const JsonReader& run);
 };
@@ -66,19 +63,7 @@ Plan::Plan(const JsonReader& run) {
     const auto edges = experiment.at("size").list("width and height", 2, 2);
     size = {int(edges[0].wholeNumber(1, 65536)), int(edges[1].wholeNumber(1, 65536))};
     const int frames = int(experiment.at("frames").wholeNumber(1, kMostFrames));
-    for (const JsonReader& frame : run.at("pictures").list("a list of frames", 1, kMostItems)) {
-        const int least = pictures.empty() ? 0 : pictures.back() + 1;
-        pictures.push_back(int(frame.wholeNumber(least, frames - 1)));
-    }
-    for (const JsonReader& reference :
-         run.at("references").list("a list of references", 0, kMostItems)) {
-        const int first = int(reference.at("first").wholeNumber(0, frames - 1));
-        references.push_back({first, int(reference.at("end").wholeNumber(first + 1, frames))});
-    }
-    for (const JsonReader& event : run.at("events").list("a list of events", 0, kMostItems)) {
-        event.at("frame").wholeNumber(0, frames - 1);
-        event.at("text").text();
-    }
+    outline = readOutline(run, frames);
 }
 
 /// `file` must have an object for each variant in its member "variants".
@@ -125,12 +110,12 @@ Json readCurves(const fs::path& file, const std::vector<std::string>& variants) 
 
 Json variantPictures(const fs::path& folder, const Plan& plan, PictureStore& store) {
     Json images = Json::object();
-    for (int frame : plan.pictures)
+    for (int frame : plan.outline.pictures)
         images["picture"].push_back(store.addPhoto(folder / (frameStem("frame", frame) + ".png")));
     for (const char* map : {"error", "lambda", "lambda_ideal", "alpha", "alpha_ideal"}) {
         Json numbers = Json::array();
         bool any = false;
-        for (int frame : plan.pictures) {
+        for (int frame : plan.outline.pictures) {
             const fs::path file = folder / "maps" / (frameStem(map, frame) + ".png");
             if (!fs::exists(file)) {
                 numbers.push_back(nullptr);
@@ -147,10 +132,10 @@ Json variantPictures(const fs::path& folder, const Plan& plan, PictureStore& sto
 
 Json referencePictures(const fs::path& folder, const Plan& plan, PictureStore& store) {
     Json numbers = Json::array();
-    for (int frame : plan.pictures) {
+    for (int frame : plan.outline.pictures) {
         Json number = nullptr;
-        for (const Plan::Reference& reference : plan.references)
-            if (reference.first <= frame && frame < reference.end)
+        for (const FrameRange& reference : plan.outline.references)
+            if (reference.contains(frame))
                 number = store.addPhoto(folder / (frameStem("frame", reference.first) + ".png"));
         numbers.push_back(number);
     }

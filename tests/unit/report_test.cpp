@@ -1,5 +1,5 @@
 #include "app/base/embedded.h"
-#include "app/report/picture_code.h"
+#include "app/report/picture_store.h"
 #include "app/report/report.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
@@ -33,8 +33,10 @@ Json experimentJson(const std::string& name, const std::string& variant) {
               {"size", {kSize.x, kSize.y}},
               {"frames", 4},
               {"variants", {{{"name", variant}, {"filter", "svgf"}}}}}},
+            {"settled_window", {0, 2}},
             {"pictures", {0, 2}},
-            {"events", {{{"frame", 2}, {"text", "<b>key: off"}}}},
+            {"events", {{{"frame", 2}, {"end", 3}, {"kind", "step"}, {"text", "<b>key: off"}}}},
+            {"changing_frames", {2}},
             {"references",
              {{{"first", 0}, {"end", 2}, {"samples", 8}, {"residual_rmse", 0.25}},
               {{"first", 2}, {"end", 4}, {"samples", 8}, {"residual_rmse", 0.0}}}}};
