@@ -2,8 +2,8 @@
 
 #include "renderer/base/error.h"
 #include "renderer/gl/embedded_shaders.h"
-#include "renderer/image/pgm.h"
 #include "renderer/image/color.h"
+#include "renderer/image/pgm.h"
 
 #include <chrono>
 

@@ -28,8 +28,8 @@ writeonly uniform uimage2D samples; // landing of the offer, place in the stratu
 
 // Of the sample that this stratum offered, now that all have claimed.
 uint fateOf(ivec2 s, uvec2 claim) {
-    bool lost = claim.x == kFateCarried &&
-                fetch(owners, stratumOf(unpackPixel(claim.y))).x != claimKey(s);
+    bool lost =
+        claim.x == kFateCarried && fetch(owners, stratumOf(unpackPixel(claim.y))).x != claimKey(s);
     return lost ? kFateLostRace : claim.x;
 }
 

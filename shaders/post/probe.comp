@@ -21,7 +21,7 @@ Float4Texture(raw);      // rgb: signal of one sample; a: luminance
 Float4Texture(albedo);
 Float4Texture(guides);  // w: depth; 0: background, which does not count
 Float4Texture(control); // lambda, alpha, history length, reason
-#ifdef OTHER_SIGNAL // the picture is lit by two
+#ifdef OTHER_SIGNAL     // the picture is lit by two
 Float4Texture(otherFiltered);
 Float4Texture(otherRaw);
 Float4Texture(otherDemodulation);
