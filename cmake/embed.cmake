@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Links files into the program. Included, this defines
 #
 #     embed_files(<variable> FUNCTION <name> ROOTS <folder>... FILES <file>...)

@@ -1,1 +1,2 @@
+// SPDX-License-Identifier: MIT
 // Compiled for its precompiled headers only.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Draws the two pictures of docs/architecture.md: folders with their arrows, from the includes of the sources, and the
 frame as stages with a thumbnail of each, from frames that the program renders.
 

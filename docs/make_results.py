@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: MIT
 """Prints docs/results.md from the runs that docs/make_results.sh has made. Every number comes from their files."""
 
 import json

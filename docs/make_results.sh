@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes docs/results.md and its pictures: runs the suite, the competitors, the options and a sweep.
 # Usage: docs/make_results.sh [PROGRAM [FOLDER]]    (half an hour on two cores without a GPU; what is
 # in FOLDER already is not run again)

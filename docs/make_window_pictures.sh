@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Makes docs/images/window.png and docs/images/workbench/*.png: the window in each of its views, on a
 # virtual display, driven by its own keys and mouse.
 # Usage: docs/make_window_pictures.sh [PROGRAM [NAME]]   (default: the first afterglow in a build

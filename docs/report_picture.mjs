@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Usage: node docs/report_picture.mjs PAGE.html PICTURE.png [HEADING]    (after third_party/install.sh --tests)
 // What a page of a report shows first, or the card with a heading.
 import path from 'node:path';

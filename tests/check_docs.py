@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Fails where the documents say what is not so: a link or a path that leads nowhere, a name that is not in the file
 that is said to hold it, a line of prose longer than 120 characters, British spelling in documents or sources.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Fails when an include under renderer/ or app/ points to a layer that its own may not know.
 # Usage: cmake -DROOT=<source dir> -P check_layers.cmake
 

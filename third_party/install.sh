@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
 # Installs the Debian 12 packages that Afterglow is built from, and only those that are missing.
 # Usage: third_party/install.sh [--tests]    (--tests adds what only the tests need)
 set -euo pipefail

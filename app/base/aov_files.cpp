@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/aov_files.h"
 
 namespace afterglow {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.22)
 # Usage: cmake -DROOT=<source folder> -DOUT=<file.h> -P commit.cmake
 # Writes the commit that is checked out in ROOT into a header; leaves the file alone if it says so already.

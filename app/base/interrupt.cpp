@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/interrupt.h"
 
 #include <csignal>

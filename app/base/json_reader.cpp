@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/json_reader.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/machine.h"
 
 #include "app/base/build_commit.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/output.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/progress.h"
 
 #include "app/base/interrupt.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/arguments.h"
 
 #include "renderer/base/error.h"

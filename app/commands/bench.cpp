@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/bench.h"
 
 #include "app/base/output.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/command_line.h"
 
 #include "app/base/interrupt.h"

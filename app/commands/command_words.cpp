@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/command_words.h"
 
 #include "app/scenario/presets.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/exchange.h"
 
 #include "app/base/interrupt.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/experiment.h"
 
 #include "app/base/interrupt.h"

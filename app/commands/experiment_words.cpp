@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/experiment_words.h"
 
 #include "app/commands/arguments.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/headless.h"
 
 #include "app/commands/arguments.h"

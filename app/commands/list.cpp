@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/list.h"
 
 #include "app/commands/arguments.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/commands/render.h"
 
 #include "app/base/aov_files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/experiment/export_frames.h"
 
 #include "app/base/aov_files.h"

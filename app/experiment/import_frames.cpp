@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/experiment/import_frames.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // mergeRuns(): what parts of a run have written, as one run would have.
 
 #include "app/experiment/run_files.h"

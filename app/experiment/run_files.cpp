@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/experiment/run_files.h"
 
 #include "app/base/json_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/experiment/run_owner.h"
 
 #include "app/experiment/run_files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/experiment/runner.h"
 
 #include "app/base/machine.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/live_response.h"
 
 #include "app/measure/response.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/meter.h"
 
 #include "app/measure/oracle.h"

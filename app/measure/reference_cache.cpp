@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/reference_cache.h"
 
 #include "app/base/json_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/response.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/run_outline.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/truth_images.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/report/contact_sheet.h"
 
 #include "app/report/canvas.h"

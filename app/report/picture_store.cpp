@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/report/picture_store.h"
 
 #include "renderer/image/image_io.h"

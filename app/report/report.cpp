@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/report/report.h"
 
 #include "app/base/embedded.h"

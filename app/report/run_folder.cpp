@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/report/run_folder.h"
 
 #include "app/base/json_reader.h"

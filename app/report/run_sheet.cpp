@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/report/run_sheet.h"
 
 #include "app/base/output.h"

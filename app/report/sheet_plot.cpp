@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/report/sheet_plot.h"
 
 #include <algorithm>

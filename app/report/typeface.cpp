@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/report/typeface.h"
 
 #include "app/base/embedded.h"

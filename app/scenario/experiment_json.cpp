@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An experiment as the text of a file: parseExperiment() and toJson().
 
 #include "app/base/json_reader.h"

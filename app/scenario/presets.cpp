@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/scenario/presets.h"
 
 #include "app/base/embedded.h"

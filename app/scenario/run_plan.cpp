@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/scenario/run_plan.h"
 
 #include "renderer/scene/load_scene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/scenario/scene_frame.h"
 
 #include "renderer/pipeline/renderer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Timeline::staged: motions of a timeline as tracks of the scene.
 
 #include "app/scenario/timeline.h"

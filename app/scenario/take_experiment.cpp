@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/scenario/take_experiment.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/scenario/variant.h"
 
 #include <algorithm>

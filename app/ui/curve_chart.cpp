@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/ui/curve_chart.h"
 
 #include "app/ui/theme.h"

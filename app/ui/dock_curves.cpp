@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the probes read over the last frames, and how fast each pane answers a change of light.
 
 #include "app/ui/curve_chart.h"

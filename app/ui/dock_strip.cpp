@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The timeline: what happened in the last frames, what is recorded, and the take that plays.
 
 #include "app/ui/draw.h"

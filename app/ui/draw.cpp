@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/ui/draw.h"
 
 #include "app/ui/theme.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sliders, and the row of one tunable.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // All keys, from the table that the keyboard is read by.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far the truth of a frozen frame has converged, and what it says.
 
 #include "app/ui/draw.h"

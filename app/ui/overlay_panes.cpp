@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What says which picture is which pane's.
 
 #include "app/ui/draw.h"

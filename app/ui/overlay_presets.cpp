@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Presets: filters with the parameters of papers and of other programs, and the user's own.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where in the pictures is measured and looked closely.
 
 #include "app/ui/draw.h"

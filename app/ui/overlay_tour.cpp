@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The card of the guided tour.
 
 #include "app/ui/draw.h"

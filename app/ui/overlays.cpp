@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What lies over the picture: a line of facts, the legend of false colors, notices.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From where the scene is seen.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is read and written: scenes, experiments, pictures, curves.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The lights, and what can happen in the scene at a press.
 
 #include "app/ui/draw.h"

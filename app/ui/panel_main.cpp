@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The title, and which filters share the view.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sliders for every tunable of the active pane, made from the field table.
 
 #include "app/ui/draw.h"

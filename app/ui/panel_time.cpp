@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How time runs, and takes: a piece of it that plays again.
 
 #include "app/ui/draw.h"

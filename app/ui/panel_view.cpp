@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the panes show, how large and how bright, and the truth of a frozen frame.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Draws all that the last frame holds of one pixel.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the time goes, and what each pass of a frame makes.
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/ui/theme.h"
 
 #include "app/base/embedded.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/ui/ui.h"
 
 #include "app/ui/draw.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/ui/widgets.h"
 
 #include "app/ui/draw.h"

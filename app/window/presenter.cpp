@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/window/presenter.h"
 
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/window/view.h"
 
 #include "app/scenario/experiment.h"

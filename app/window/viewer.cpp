@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/window/viewer.h"
 
 #include "app/base/output.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/window/window.h"
 
 #include "renderer/base/error.h"

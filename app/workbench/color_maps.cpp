@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/color_maps.h"
 
 #include "renderer/image/color.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/inspection.h"
 
 #include <fmt/format.h>

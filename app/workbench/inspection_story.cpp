@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/inspection.h"
 #include "renderer/image/color.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/oracle_view.h"
 
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/panes.h"
 
 #include "app/workbench/fields.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What each key means: perform().
 
 #include "app/workbench/view_state.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/pictures.h"
 
 #include "renderer/pipeline/aov.h"

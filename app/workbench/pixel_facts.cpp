@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/pixel_facts.h"
 
 #include "renderer/filters/svgf_filter.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/preferences.h"
 
 #include "app/base/json_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/preset_store.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/scene_event.h"
 
 #include "app/workbench/view_state.h"

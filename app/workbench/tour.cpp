@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/tour.h"
 
 #include "app/base/embedded.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/view_state.h"
 
 #include "app/workbench/camera_path.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/workbench_impl.h"
 
 #include <algorithm>

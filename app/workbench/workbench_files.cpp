@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What Workbench does with files and with the clipboard.
 
 #include "app/base/aov_files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 // What Workbench is made of. Seen by its own .cpp files alone.

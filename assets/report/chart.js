@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// The curves of a run over its frames. The box is a slider: pointer and arrow keys move the frame.
 class Chart {
     constructor(run, cursor) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 'use strict';
 
 /// Makes an element. Functions among the attributes listen; what is null or false is left out.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// The data of the page in the shape in which it is drawn.
 
 const namedSeries = { fixed: 1, svgf: 2, asvgf: 3 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// Three significant digits, without an exponent where it can be helped: 0.0104, 12.3, 1.25e-5.
 function shortNumber(value) {
     if (value === 'inf' || value === Infinity) return '\u221e';

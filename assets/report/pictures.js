@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// Pictures are decoded when they are first drawn, and a few hundred are kept.
 
 const mostDecoded = 240;

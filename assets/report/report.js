@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 function makeRun(run, isSuite) {
     const { experiment } = run;
     const cursor = new Cursor(run);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// Two pictures on top of each other: the left one up to the divider, the right one from there on.
 class Stage {
     constructor(run) {

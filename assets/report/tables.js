@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /// The best of a column: the variants that show the same text as the best value. None where all do,
 /// or where there is nothing to compare with.
 function bestOf(run, column) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 const lagMeasures = ['t90', 'lag_frames', 'ghost_frames'];
 
 /// What is swept trades noise for lag: a curve for each filter, closer to the corner is better.

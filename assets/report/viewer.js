@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 const layers = [
     { key: 'picture', label: 'Picture' },
     { key: 'error', label: 'Error', tip: 'FLIP: the difference from the reference that an eye sees',

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """Writes the example scenes: cornell.gltf, with its data in it, and spinner.glb, which moves.
 
     python3 make_cornell.py [folder]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """A small denoiser, as an example of how another program meets Afterglow's frames.
 
     afterglow render light-off --export --format pfm --out noise

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/log.h"
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/names.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/bvh/scene_bvh.h"
 
 #include <algorithm>

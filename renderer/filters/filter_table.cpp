@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/filters/filter_table.h"
 
 #include "renderer/base/names.h"

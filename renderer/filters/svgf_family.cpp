@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Declares the images and the AOVs of SVGF and its relatives.
 
 #include "renderer/filters/svgf_filter.h"

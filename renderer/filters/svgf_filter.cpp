@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/filters/svgf_filter.h"
 
 namespace afterglow {

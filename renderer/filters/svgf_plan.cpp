@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/filters/svgf_plan.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/context.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/gpu_timer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/pixel_format.h"
 
 #include <stdexcept>

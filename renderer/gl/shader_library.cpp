@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/shader_library.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/shader_source.h"
 
 #include "renderer/base/error.h"

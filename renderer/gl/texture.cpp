@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/texture.h"
 
 #include "renderer/gl/errors.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/texture_array.h"
 
 #include "renderer/base/error.h"

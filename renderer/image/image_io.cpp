@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/image/image_io.h"
 
 #include "renderer/base/error.h"

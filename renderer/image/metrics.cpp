@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/image/metrics.h"
 
 #include "renderer/image/color.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/image/separable_filter.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/atrous_pass.h"
 
 namespace afterglow {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/composite_pass.h"
 
 #include "renderer/resources/render_targets.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/debug_view_pass.h"
 
 #include <stdexcept>

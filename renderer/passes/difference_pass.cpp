@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/difference_pass.h"
 
 #include "shared/instrument_params.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/forward_project_pass.h"
 
 namespace afterglow {

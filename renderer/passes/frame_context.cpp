@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/frame_context.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/gradient_pass.h"
 
 namespace afterglow {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/lighting_pass.h"
 
 namespace afterglow {

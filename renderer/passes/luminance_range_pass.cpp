@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/luminance_range_pass.h"
 
 namespace afterglow {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/reason_pass.h"
 
 #include <algorithm>

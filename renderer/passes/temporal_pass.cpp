@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/temporal_pass.h"
 
 namespace afterglow {

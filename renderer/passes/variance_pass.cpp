@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/variance_pass.h"
 
 namespace afterglow {

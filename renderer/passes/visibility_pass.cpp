@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/visibility_pass.h"
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/pipeline/aov.h"
 
 #include "renderer/base/names.h"

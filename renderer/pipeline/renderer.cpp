@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/pipeline/renderer_impl.h"
 
 #include "renderer/gl/device_memory.h"

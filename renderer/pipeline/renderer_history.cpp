@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The part of Renderer that keeps what a frame leaves for the next one, and gives it back.
 
 #include "renderer/pipeline/renderer_impl.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The part of Renderer that converges references.
 
 #include "renderer/pipeline/renderer_impl.h"

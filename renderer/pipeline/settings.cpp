@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/pipeline/settings.h"
 
 #include "renderer/base/error.h"

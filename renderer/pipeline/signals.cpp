@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/pipeline/signals.h"
 
 #include "renderer/base/names.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/resources/image_set.h"
 
 #include "shared/bindings.h"

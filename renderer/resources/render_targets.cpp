@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/resources/render_targets.h"
 
 #include "shared/counters.h"

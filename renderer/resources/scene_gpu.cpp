@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/resources/scene_gpu.h"
 
 #include "renderer/base/error.h"

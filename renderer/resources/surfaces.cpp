@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/resources/surfaces.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The scene at a moment, from the moment alone. glTF 2.0, sections 3.11 and C.3, C.4.
 
 #include "renderer/scene/scene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // glTF 2.0, section 5 and the rules of section 3, for what the importer reads. The parser behind it
 // is given only what has passed here: it does not mind indices out of range, and we do.
 

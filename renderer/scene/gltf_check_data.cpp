@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a glTF document is made of: buffers, views, accessors, textures and materials. Whether the
 // bytes are there is checked here; the values in them are not looked at.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a glTF document puts its parts together: cameras, meshes, nodes and their hierarchy, scenes
 // and animations.
 

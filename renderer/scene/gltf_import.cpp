@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The only file that sees tinygltf. It is given a document that has been checked (gltf_check.h) and
 // the bytes of its buffers; it opens no file by itself.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/scene/gltf_json.h"
 
 #include "renderer/scene/gltf_container.h"

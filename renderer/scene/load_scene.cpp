@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/scene/load_scene.h"
 
 #include "renderer/base/names.h"

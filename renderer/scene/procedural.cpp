@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/scene/procedural.h"
 
 #include "renderer/base/error.h"

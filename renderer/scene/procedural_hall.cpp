@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The hall. X across, Z along; the nave lies between the columns at x = -3 and x = 3, an aisle on
 // either side, and the picture looks along -Z. Static parts are merged by material.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The small scenes: the Cornell box and those that tests measure. Their numbers are promised in
 // procedural.h.
 

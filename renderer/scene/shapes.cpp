@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/scene/shapes.h"
 
 #include <algorithm>

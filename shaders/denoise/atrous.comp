@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // One iteration of the edge-avoiding a-trous wavelet filter, guided by variance.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Forward projection, first half: every stratum of the previous frame offers one surface sample to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Forward projection, second half: the winner of each stratum replaces the visibility sample and

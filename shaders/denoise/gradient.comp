@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // The temporal gradient at the sample of each stratum: the same surface point, shaded with the same

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // One iteration of the reconstruction of the temporal gradient, on the grid of strata: delta and

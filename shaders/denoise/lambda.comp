@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // The normalized history weight. Schied et al. 2018, section 4.4: lambda = min(1, |delta| / Delta),

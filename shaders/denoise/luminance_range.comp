@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Two percentiles of the raw luminance of each tile of 8x8 pixels, and its mean between them: what

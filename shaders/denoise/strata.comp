@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Normal, depth and slope of each stratum, for filters on the grid of strata: those of its center

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Back-projects the history and blends the new sample into it, with an alpha for each pixel.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Variance of the luminance from its moments: over time, or over 7x7 pixels where the history is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rays against all triangles of the scene: the nearest hit, or whether there is any.
 //
 // A walk in the manner of Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs",

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Luminance of linear Rec. 709 radiance.
 float luminance(vec3 c) {
     return dot(c, vec3(0.2126, 0.7152, 0.0722));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sums over the frame that are read back on demand.
 
 #include "shared/counters.h"

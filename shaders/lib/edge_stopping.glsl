@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edge-stopping functions of both a-trous filters. Schied et al. 2017, section 4.4, equations 3
 // to 5. Departure: the epsilon of the depth weight is relative to the depth, so no unit of length
 // is fixed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Unit vectors in 32 bits: octahedral map, two signed normalized 16-bit numbers.
 // Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Colors for numbers. app/workbench/color_maps.cpp draws the same scales as legends.
 
 #include "lib/color.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Textures and buffers that are read one texel at a time, declared and read in one spelling:
 //
 //     Float4Texture(radiance);                            // at file scope

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a surface sample of the previous frame stands now. Schied et al. 2018, section 4.1.
 
 #include "lib/frame.glsl"

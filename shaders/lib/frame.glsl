@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The frame block.
 
 #include "shared/bindings.h"

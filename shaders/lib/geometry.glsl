@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The scene's triangles, now and one frame ago. Layouts: shared/scene.h.
 
 #include "lib/fetch.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Integer hashes: every random choice is one of these over what it depends on.
 
 // A permutation of the 32-bit integers: xor-shifts and multiplications by odd numbers, each of

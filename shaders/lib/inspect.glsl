@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A pass that can be compiled to inspect one texel of its outputs. With INSPECT it runs one thread,
 // for the texel that `findings` names, and writes there what it computes on its way:
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A random point on the area lights. Schied et al. 2018, section 5: one random number picks the
 // light, two pick the point on it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Seeds and the numbers that follow from them: a Halton sequence over frames, shifted in each pixel
 // by a blue-noise tile (Cranley and Patterson 1976; Georgiev and Fajardo 2016, "Blue-noise dithered
 // sampling").

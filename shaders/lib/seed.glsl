@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A pixel's seed: its place in the blue-noise tile and the frame number. All random numbers of the
 // pixel follow from it (lib/random.glsl), so storing it is storing the whole random sequence.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The 3x3 strata of gradient samples.
 
 #include "lib/encoding.glsl"

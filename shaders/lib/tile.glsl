@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The walk of a compute shader over pixels.
 
 #include "shared/bindings.h"

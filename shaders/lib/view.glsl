@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Between pixels, view space and clip space.
 
 #include "lib/frame.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Adds one sample per pixel to the sums of a reference. With NEXT_SEEDS it also makes the seeds of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // One sample per pixel of the demodulated signal: a shadow ray to a random point of the area

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // The mean of the samples of a reference, and how much one sample's luminance varies around it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Puts back what the filters must not touch: emission, background, and what each signal was divided

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Shows what any image of a frame holds. SOURCE says how the image is declared: Float4Texture and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // What one image has more than another, channel by channel. SOURCE says how both are declared:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // What a rectangle of the picture holds, as sums and squared deviations over blocks of it. Each

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // How many pixels have each reason for their history; with FATES how many strata have each fate of

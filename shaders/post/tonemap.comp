@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Linear radiance to the display: exposure, a curve with a shoulder, sRGB encoding.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // Turns rasterized ids into visibility samples (with the barycentrics of the pixel's centre) and

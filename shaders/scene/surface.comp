@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // The surface behind each visibility sample: where it is, where it was one frame ago, what it is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450 core
 
 // One instance into the visibility buffer. Burns and Hunt 2013, "The Visibility Buffer".

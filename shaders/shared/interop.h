@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #pragma once
 
 // Lets one header be both C++ and GLSL. Everything it needs is here.

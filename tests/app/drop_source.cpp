@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The source's half of "Drag-and-Drop Protocol for the X Window System" (XDND), version 5, and as
 // much of the ICCCM's selections as it needs.
 

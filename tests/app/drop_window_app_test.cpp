@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files dropped on a window, from the X server's side. The receiver here is a bare one of GLFW:
 // what it hears is what the program can hear.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Frames that go out to another denoiser and come back to be measured. The other denoiser is our
 // own SVGF in disguise, whose figures are known.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the inspector says of a pixel, against the images that it speaks of.
 
 #include "app/workbench/pixel_facts.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The inspector's sentences: the origin of a sample, the reason where there is none, alpha.
 
 #include "app/workbench/pixel_facts.h"

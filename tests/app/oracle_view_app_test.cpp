@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The truth of a frozen frame, against experiments and against what must be.
 
 #include "app/measure/meter.h"

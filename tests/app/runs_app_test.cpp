@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs that are interrupted, split, repeated and compared.
 
 #include "program.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Drives the real window on a virtual display, with its own keys and mouse, and looks at the
 // pictures that it saves.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "window_session.h"
 
 #include "drop_source.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The workbench without a window: pictures, files and presets, driven by keys.
 
 #include "app/measure/live_response.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The workbench without a window: frames, panes, loops, passes and frozen moments, driven by keys.
 
 #include "app/measure/live_response.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Probes and the inspector are read a frame late, and belong to the frame that they measured.
 
 #include "workbench_bench.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The workbench's frame times, as shown and as exported.
 
 #include "app/workbench/workbench.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The workbench in a real window: what keys and the mouse do, by the pictures and the files that
 // the program saves.
 

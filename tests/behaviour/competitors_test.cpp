@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The competing filters against A-SVGF and SVGF: what they gain, what they cost, what they cannot
 // do. Bounds are around measured values, with their causes.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Filters compose: one may filter what another has made, with the lambda of the noise.
 
 #include "renderer/filters/svgf_filter.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What must hold whatever the noise. Each case is one promise of the method: Schied et al. 2018.
 
 #include "renderer/pipeline/aov.h"

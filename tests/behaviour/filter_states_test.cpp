@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Several filters on one raw signal, gradient samples beside the picture, and frames that are
 // rendered again.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The times of passes that a command reports are those of the frame that it reports.
 
 #include "app/base/output.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The ground truth of a frame, which is computed a little at a time.
 
 #include "app/measure/truth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ghosting and lag as numbers: what the whole program is about.
 
 #include "app/measure/response.h"

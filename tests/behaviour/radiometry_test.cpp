@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The light itself against closed forms.
 
 #include "renderer/scene/procedural.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The error that references state, and that one from a cache is the one that was converged.
 
 #include "app/measure/reference.h"

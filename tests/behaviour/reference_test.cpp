@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Converged references: surfaces of one moment in the light of another, the variance of a sample.
 
 #include "renderer/image/color.h"

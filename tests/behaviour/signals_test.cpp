@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Light that is filtered in parts: each signal has its own noise, gradient, filter and reference.
 
 #include "renderer/image/color.h"

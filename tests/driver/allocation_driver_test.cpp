@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A device without the memory for an image: whichever it is, the renderer ends with an error that
 // names it, and never with a picture.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A compiler may contract products with sums in one program and not in another, and in one of two
 // computations of the same thing. What must be exact has to be so all the same.
 

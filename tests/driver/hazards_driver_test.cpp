@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Freedoms of a driver that llvmpipe does not take: garbage in new storage, writes that are seen
 // late without a barrier, workgroups in another order.
 

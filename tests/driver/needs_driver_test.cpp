@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The resources that the shaders use, against the minima that OpenGL 4.5 promises.
 
 #include "renderer/filters/svgf_filter.h"

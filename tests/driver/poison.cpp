@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/driver/poison.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/driver/program_needs.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/driver/rewritten_shaders.h"
 
 #include <algorithm>

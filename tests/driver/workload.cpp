@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/driver/workload.h"
 
 #include "renderer/base/hash.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every shader, in both ways of fetching textures, through this driver and through Khronos' own
 // compiler: drivers accept different mistakes.
 

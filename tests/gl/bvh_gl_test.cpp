@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The GLSL walk against Embree: same hits, same triangles, but for rays that touch an edge or meet
 // two triangles at one distance. Each such excuse is checked in double precision, counted and
 // bounded.

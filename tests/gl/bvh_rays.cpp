@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/gl/bvh_rays.h"
 
 #include <utility>

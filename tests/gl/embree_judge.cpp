@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/gl/embree_judge.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/gpu_timer.h"
 #include "tests/support/gl_fixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/texture_array.h"
 #include "renderer/resources/history.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The inputs of a program by name, and the ones that it refuses.
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "tests/support/compare.h"
 #include "tests/support/gl_fixture.h"

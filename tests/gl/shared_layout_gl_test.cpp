@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "shared/debug_view_params.h"
 #include "shared/denoise_params.h"
 #include "shared/frame.h"

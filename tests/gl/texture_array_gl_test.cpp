@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "renderer/gl/program.h"
 #include "tests/support/compare.h"

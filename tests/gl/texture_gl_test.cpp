@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/framebuffer.h"

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: MIT
 """Computes every image metric a second time, for metrics_oracle_test.cpp to compare with.
 
 Usage: metrics_oracle.py FOLDER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One process and one browser for all.
 import { after } from 'node:test';
 import { closeBrowser } from './support.mjs';

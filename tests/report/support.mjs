@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The run that is tested, the browser, and how a page is looked at.
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';

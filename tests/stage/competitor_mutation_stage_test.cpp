@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Would the tests of the competing filters notice? See mutation_stage_test.cpp.
 
 #include <doctest/doctest.h>

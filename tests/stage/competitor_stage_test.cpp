@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the competing filters add to the shared stages: a clamped history, lambda from percentiles
 // of one frame, lambda that cuts the history length.
 

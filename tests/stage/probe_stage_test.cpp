@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/passes/probe_pass.h"
 
 #include <doctest/doctest.h>

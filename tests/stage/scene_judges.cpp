@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/stage/scene_judges.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/stage/stage_runner.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shipped experiments, small: what a change may not make worse. Every bound is what was
 // measured plus a tenth; the causes say why it was not less.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/gl_fixture.h"
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/glsl_probe.h"
 
 #include "tests/support/gl_fixture.h"

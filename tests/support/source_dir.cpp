@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/source_dir.h"
 
 namespace afterglow {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/studio.h"
 
 #include "tests/support/gl_fixture.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/scene/gltf_import.h"
 #include "renderer/scene/scene.h"
 #include "tests/support/gltf_builder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/bvh/bvh_trace.h"
 
 #include <algorithm>

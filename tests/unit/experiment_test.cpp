@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/embedded.h"
 #include "app/scenario/experiment.h"
 #include "app/scenario/run_plan.h"

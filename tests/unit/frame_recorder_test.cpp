@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/frame_recorder.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"

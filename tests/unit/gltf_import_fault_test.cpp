@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What importGltf() refuses, and in which words.
 
 #include "renderer/base/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/hash.h"
 
 #include <doctest/doctest.h>

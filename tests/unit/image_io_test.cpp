@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/image/image_io.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Live responses measured under noise.
 
 #include "tests/unit/light_bench.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/unit/light_bench.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/metric.h"
 #include "app/measure/metrics_table.h"
 #include "app/measure/summary.h"

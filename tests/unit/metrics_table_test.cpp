@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/metrics_table.h"
 #include "renderer/base/error.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/fields.h"
 #include "app/workbench/panes.h"
 #include "renderer/base/error.h"

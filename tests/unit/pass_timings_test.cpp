@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/workbench/pass_timings.h"
 
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "state_facts.h"
 #include "window_hands.h"
 

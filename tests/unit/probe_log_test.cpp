@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/measure/probe_csv.h"
 #include "app/measure/probe_log.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The names of references and the folder that keeps them. Nothing here needs OpenGL.
 
 #include "app/measure/reference.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/base/embedded.h"
 #include "app/report/picture_store.h"
 #include "app/report/report.h"

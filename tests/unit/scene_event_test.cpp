@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/scenario/experiment.h"
 #include "app/workbench/scene_event.h"
 #include "renderer/image/color.h"

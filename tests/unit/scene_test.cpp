@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/procedural.h"

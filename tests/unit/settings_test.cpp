@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "renderer/filters/svgf_plan.h"
 #include "renderer/pipeline/settings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "renderer/gl/embedded_shaders.h"
 #include "renderer/gl/shader_source.h"

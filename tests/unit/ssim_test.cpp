@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/image/ssim.h"
 
 #include "tests/support/compare.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "state_facts.h"
 
 #include "app/workbench/fields.h"

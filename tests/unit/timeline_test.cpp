@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/scenario/timeline.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/procedural.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Takes: records between two points, and what is played.
 
 #include "tests/unit/transport_program.h"

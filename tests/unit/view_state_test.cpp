@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "renderer/base/error.h"
 #include "tests/support/temporary_folder.h"
 #include "window_hands.h"

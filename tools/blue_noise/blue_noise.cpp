@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913, 1993.
 //
 // Departs from the paper in three places, none of which changes the idea:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the blue-noise tile that ships in assets/noise:
 //
 //     blue_noise assets/noise/blue_noise_128.pgm
