@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstring>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace afterglow {
@@ -58,9 +58,7 @@ void OutputFolder::writeFloat(std::string_view stem, std::string_view format,
 }
 
 std::string frameStem(std::string_view name, int frame) {
-    char number[16];
-    std::snprintf(number, sizeof number, "_%04d", frame);
-    return std::string(name) + number;
+    return fmt::format("{}_{:04}", name, frame);
 }
 
 const GpuTexture& FrameClock::render(Renderer& renderer, const FrameInput& input,
@@ -192,24 +190,18 @@ Json describe(const FrameClock& clock) {
 std::string passTable(const FrameClock& clock) {
     std::string table;
     for (const FrameClock::Pass& pass : clock.passes()) {
-        if (!pass.median)
-            continue;
-        char line[160];
-        std::snprintf(line, sizeof line, "    %-28s %9.3f ms\n", pass.name.c_str(), *pass.median);
-        table += line;
+        if (pass.median)
+            table += fmt::format("    {:<28} {:9.3f} ms\n", pass.name, *pass.median);
     }
     return table;
 }
 
 std::string raysText(double raysPerSecond) {
-    char text[48];
     if (raysPerSecond >= 1e9)
-        std::snprintf(text, sizeof text, "%.2f G rays/s", raysPerSecond * 1e-9);
-    else if (raysPerSecond >= 1e6)
-        std::snprintf(text, sizeof text, "%.2f M rays/s", raysPerSecond * 1e-6);
-    else
-        std::snprintf(text, sizeof text, "%.0f k rays/s", raysPerSecond * 1e-3);
-    return text;
+        return fmt::format("{:.2f} G rays/s", raysPerSecond * 1e-9);
+    if (raysPerSecond >= 1e6)
+        return fmt::format("{:.2f} M rays/s", raysPerSecond * 1e-6);
+    return fmt::format("{:.0f} k rays/s", raysPerSecond * 1e-3);
 }
 
 } // namespace afterglow

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace afterglow {
@@ -35,8 +36,7 @@ void Progress::advance(double work, std::string_view doing) {
     bar.resize(kCells, ' ');
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const std::string left = clockText(elapsed * (1.0 - part) / std::max(part, 1e-6));
-    std::fprintf(stderr, "\r\033[K[%s] %3d %%  %s left  %.*s", bar.c_str(), int(part * 100.0),
-                 left.c_str(), int(doing.size()), doing.data());
+    fmt::print(stderr, "\r\033[K[{}] {:3} %  {} left  {}", bar, int(part * 100.0), left, doing);
     std::fflush(stderr);
 }
 
@@ -46,13 +46,8 @@ void Progress::skip(double work) {
 
 std::string clockText(double seconds) {
     const auto whole = (long long)(std::clamp(seconds, 0.0, 359999.0) + 0.5);
-    char text[32];
-    if (whole >= 3600)
-        std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60,
-                      whole % 60);
-    else
-        std::snprintf(text, sizeof text, "%lld:%02lld", whole / 60, whole % 60);
-    return text;
+    return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+                         : fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
 } // namespace afterglow

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/headless.h"
 
-#include "app/commands/arguments.h"
 #include "renderer/base/error.h"
+#include "renderer/base/names.h"
 #include "renderer/gl/errors.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 
@@ -22,8 +23,6 @@ constexpr std::array kContexts{
     ContextInfo{ContextChoice::Glfw, "glfw", "a window that is not shown; needs a display"},
 };
 
-constexpr int kMostDevices = 1000;
-
 std::unique_ptr<GlContext> makeContext(ContextWish wish, HiddenContextFactory hiddenContext) {
     const ContextOptions options{.device = wish.device};
     switch (wish.choice) {
@@ -32,8 +31,6 @@ std::unique_ptr<GlContext> makeContext(ContextWish wish, HiddenContextFactory hi
     case ContextChoice::Egl: return createHeadlessContext(Backend::Egl, options);
     case ContextChoice::Glfw: break;
     }
-    if (!hiddenContext)
-        throw ContextError("this build has no window, so no context of kind glfw");
     return hiddenContext();
 }
 
@@ -41,6 +38,10 @@ std::unique_ptr<GlContext> makeContext(ContextWish wish, HiddenContextFactory hi
 
 std::span<const ContextInfo> contexts() {
     return kContexts;
+}
+
+std::string_view nameOf(ContextChoice choice) {
+    return std::ranges::find(kContexts, choice, &ContextInfo::choice)->name;
 }
 
 ContextChoice contextFromName(std::string_view name) {
@@ -51,25 +52,6 @@ ContextChoice contextFromName(std::string_view name) {
         known.push_back(info.name);
     }
     throw UsageError(unknownName("context", name, known));
-}
-
-ContextWish contextFrom(const std::optional<std::string>& name,
-                        const std::optional<std::string>& device) {
-    ContextWish wish;
-    if (name)
-        wish.choice = contextFromName(*name);
-    if (!device)
-        return wish;
-    if (wish.choice != ContextChoice::Auto && wish.choice != ContextChoice::Egl)
-        throw UsageError("--device " + *device + ": only EGL has devices to choose from, so " +
-                         "--context " + *name + " excludes it");
-    wish.device = int(parseWhole("--device", *device, 0, kMostDevices));
-    const std::size_t count = eglDevices().size();
-    if (std::size_t(*wish.device) >= count)
-        throw UsageError("--device " + *device + ": EGL has " + std::to_string(count) +
-                         (count == 1 ? " device" : " devices") +
-                         ", counted from 0; see afterglow list contexts");
-    return wish;
 }
 
 Headless::Headless(ContextWish wish, HiddenContextFactory hiddenContext)
@@ -84,15 +66,16 @@ void Headless::resize(glm::ivec2 size) {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (std::max(size.x, size.y) > largest)
-        throw UsageError("--size " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                         ": the largest image of this driver is " + std::to_string(largest) +
-                         " pixels along a side");
+        throw UsageError(
+            fmt::format("--size: the largest image of this driver is {} pixels along a side, found "
+                        "'{}x{}'",
+                        largest, size.x, size.y));
     renderer.resize(size);
 }
 
-void tellSoftwareRenderer(const GlInfo& gl) {
+void noteSoftwareRenderer(const GlInfo& gl) {
     if (gl.softwareRasterizer)
-        std::printf("%s, a software renderer: times are of the CPU\n", gl.renderer.c_str());
+        fmt::print("{}, a software renderer: times are of the CPU\n", gl.renderer);
 }
 
 } // namespace afterglow

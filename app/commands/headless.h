@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace afterglow {
@@ -22,6 +21,7 @@ struct ContextInfo {
 };
 std::span<const ContextInfo> contexts();
 
+std::string_view nameOf(ContextChoice choice);
 ContextChoice contextFromName(std::string_view name); ///< UsageError names the nearest known
 
 struct ContextWish {
@@ -29,13 +29,7 @@ struct ContextWish {
     std::optional<int> device = {}; ///< one of eglDevices(), for Auto and Egl
 };
 
-/// Returns the context that --context and --device ask for. UsageError where they do not go
-/// together, or where there is no such device.
-ContextWish contextFrom(const std::optional<std::string>& name,
-                        const std::optional<std::string>& device);
-
-/// Makes the context of a window that is not shown. Given from outside, so that nothing here sees
-/// the window.
+/// Makes the context of a window that is not shown.
 using HiddenContextFactory = std::unique_ptr<GlContext> (*)();
 
 /// A renderer with all it stands on, in the order in which it must live and die.
@@ -57,6 +51,6 @@ struct Headless {
 };
 
 /// Prints a line about what drew, if that was the CPU.
-void tellSoftwareRenderer(const GlInfo& gl);
+void noteSoftwareRenderer(const GlInfo& gl);
 
 } // namespace afterglow

@@ -4,13 +4,15 @@
 #include "app/base/aov_files.h"
 #include "app/base/output.h"
 #include "app/base/progress.h"
+#include "app/commands/command.h"
 #include "app/measure/reference.h"
 #include "renderer/base/error.h"
-#include "renderer/pipeline/aov.h"
+#include "renderer/base/names.h"
 #include "renderer/scene/load_scene.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 
@@ -18,174 +20,272 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<const AovInfo*> chosenAovs(const RenderOptions& options) {
-    std::vector<const AovInfo*> chosen;
-    for (const std::string& name : options.aovs) {
-        const AovInfo& aov = aovByName(name);
-        if (!isMadeBy(aov, options.settings)) {
-            std::string makers;
-            for (Filter filter : allFilters())
-                if (isMadeBy(aov, FilterSettings{filter, options.settings.denoiser}))
-                    makers += (makers.empty() ? "" : ", ") + std::string(nameOf(filter));
-            throw UsageError("--aov " + name + ": the filter " +
-                             std::string(nameOf(options.settings.filter)) + " does not make it" +
-                             (makers.empty() ? "" : "; these do: " + makers));
+/// "key=off@8", "key=on@16", "fill=0.5" (power, from frame 0 on). The event sets both `on` and
+/// `power`: what the text leaves out is as the scene has it.
+LightEvent lightEventFrom(const std::string& text) {
+    auto [light, value] = assignment().read(text);
+    LightEvent event{.light = light, .on = true, .power = 1.0f};
+    try {
+        if (const auto at = value.rfind('@'); at != value.npos) {
+            event.frame = wholeNumber(0, 1'000'000).read(value.substr(at + 1));
+            value.erase(at);
         }
-        if (std::ranges::find(chosen, &aov) == chosen.end())
-            chosen.push_back(&aov);
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("{}: frame: {}", text, error.what()));
     }
-    return chosen;
+    if (value == "off" || value == "on") {
+        event.on = value == "on";
+        return event;
+    }
+    try {
+        event.power = float(number(0.0, 1e6, "").read(value));
+    } catch (const UsageError&) {
+        throw UsageError(fmt::format("expected NAME=on, NAME=off or NAME=POWER (0 to 1000000), "
+                                     "each with @FRAME or without, found '{}'",
+                                     text));
+    }
+    return event;
 }
 
-FrameInput inputAt(const RenderOptions& options, const Scene& scene, std::size_t camera, int frame,
-                   std::span<const LightState> lights) {
-    const double seconds = options.animate ? frame / options.rate : 0.0;
-    return {.camera = cameraAt(scene, poseAt(scene, seconds), camera),
+using Aovs = std::vector<const AovInfo*>;
+
+Aovs aovsFrom(const std::string& text) {
+    Aovs aovs;
+    for (const std::string& name : partsOf(text))
+        if (const AovInfo* aov = &aovByName(name); std::ranges::find(aovs, aov) == aovs.end())
+            aovs.push_back(aov);
+    return aovs;
+}
+
+/// The frames of a scene, or its converged image.
+class Render final : public Command {
+public:
+    explicit Render(Options& options);
+    void run(HiddenContextFactory hiddenContext) override;
+
+private:
+    void check() const;
+    void renderFrames(Headless& headless, const OutputFolder& folder);
+    void renderReference(Headless& headless, const OutputFolder& folder);
+    FrameInput inputAt(const Scene& scene, int frame, std::span<const LightState> lights) const;
+    void write(const Renderer& renderer, const GpuTexture& display, const OutputFolder& folder,
+               int frame);
+    Json describeRun(const Headless& headless) const;
+
+    RenderOptions o_;
+    int every_ = 1;              ///< writes frames 0, every, 2 every, ...
+    bool last_ = false;          ///< writes only the last frame
+    std::optional<int> samples_; ///< instead of frames: the converged image of so many a pixel
+    bool exports_ = false;
+    std::vector<int> written_; ///< frames
+};
+
+Render::Render(Options& options) {
+    options.require("SCENE", o_.source, anyText(""),
+                    "A name (afterglow list scenes), or a .gltf or .glb file; with --export also "
+                    "an experiment's name or .json file");
+    options.require("--out,-o", o_.out, anyText("DIR"),
+                    "Folder of the results; made if it is missing");
+    options.add("--filter", o_.filter, filterName(),
+                "A filter or a preset; afterglow list filters, presets [asvgf]");
+    o_.picture.addTo(options);
+    options.add("--frames,-n", o_.frames, wholeNumber(1, kMostFrames),
+                "Frames to render" + defaultText(kRenderFrames));
+    options.add("--size", o_.size, imageSize(),
+                "Of the picture in pixels" + defaultText(kRenderSize));
+    options.add("--seed", o_.seed, seedNumber(), "Of all random numbers, 0 to 4294967295 [0]");
+    o_.context.addTo(options);
+    options.addEach("--light", o_.lights, Kind<LightEvent>{"NAME=STATE[@FRAME]", lightEventFrom},
+                    "Sets a light to on, off or a power (1 is the scene's own) from a frame on; "
+                    "again for more");
+    options.add("--camera", o_.camera, anyText(), "One of the scene's cameras [the first]");
+    options.addFlag("--animate", o_.animate, "Plays the scene's animation; else nothing moves");
+    options.add("--rate", o_.rate, number(1e-3, 1e3, "HZ"), "Frames a second of scene time [60]");
+    options.add("--aov", o_.aovs, Kind<Aovs>{"A,B,...", aovsFrom},
+                "Also writes these images as floats. See: afterglow list aovs");
+    options.add("--format", o_.format, oneOf("format", {"png", "exr", "pfm"}),
+                "Of those images: exr or pfm. png is exr: the display picture is always PNG");
+    options.add("--every", every_, wholeNumber(1, kMostFrames, "K"),
+                "Writes only the frames 0, K, 2K, ...");
+    options.addFlag("--last", last_, "Writes only the last frame");
+    options.add("--spp", samples_, wholeNumber(1, kMostSamples),
+                "With --filter none: one converged image of N samples a pixel, instead of frames");
+    options.addFlag(
+        "--export", exports_,
+        "For another denoiser: the noisy frames (--filter none) with all it needs, as floats");
+    options.need("--rate", "--animate");
+    options.exclude("--last", {"--every"});
+    options.exclude("--spp", {"--frames", "--every", "--last", "--animate"});
+    options.exclude("--export", {"--spp", "--every", "--last", "--set"});
+    options.check([this] { exports_ ? checkExport(o_) : check(); });
+    options.setFooter(
+        R"(Writes DIR/color_0000.png, ..., DIR/<aov>_0000.exr, ... and, last, DIR/run.json.
+With --export: raw, albedo, emission, normal, depth, motion and previous_depth of every
+frame and, last, DIR/export.json, for afterglow import-frames.
+
+Examples:
+  afterglow render cornell --out out/cornell
+  afterglow render hall --frames 64 --light key=off@32 --aov lambda,history --out out/hall
+  afterglow render cornell --filter none --spp 1024 --out out/reference
+  afterglow render my.glb --size 1280x720 --animate --camera Front --last --out out/my
+  afterglow render light-off --export --out out/noise)");
+}
+
+/// What --spp and --aov need of the others.
+void Render::check() const {
+    const Settings settings = o_.settings();
+    if (samples_ && settings.filter != Filter::None)
+        throw UsageError("--spp makes the converged image of one moment, which no filter touches; "
+                         "it needs --filter none");
+    for (const LightEvent& event : o_.lights)
+        if (samples_ && event.frame > 0)
+            throw UsageError(fmt::format("--light {}=...@{}: --spp makes one image, so lights "
+                                         "change at frame 0 only",
+                                         event.light, event.frame));
+    for (const AovInfo* aov : o_.aovs) {
+        if (isMadeBy(*aov, settings))
+            continue;
+        std::vector<std::string_view> makers;
+        for (Filter filter : allFilters())
+            if (isMadeBy(*aov, FilterSettings{filter, settings.denoiser}))
+                makers.push_back(nameOf(filter));
+        throw UsageError(fmt::format(
+            "--aov {}: the filter {} does not make it{}{}", aov->name, nameOf(settings.filter),
+            makers.empty() ? "" : "; these do: ", fmt::join(makers, ", ")));
+    }
+}
+
+void Render::run(HiddenContextFactory hiddenContext) {
+    if (exports_)
+        return exportForDenoiser(o_, hiddenContext);
+    Scene scene = loadScene(o_.source);
+    cameraIndex(scene, o_.camera); // says what is wrong before anything is made
+    lightTimeline(scene, o_.lights, 1);
+    const OutputFolder folder(o_.out);
+    Headless headless(o_.context, hiddenContext);
+    headless.resize(o_.size.value_or(kRenderSize));
+    headless.renderer.setScene(std::move(scene));
+    samples_ ? renderReference(headless, folder) : renderFrames(headless, folder);
+    noteSoftwareRenderer(headless.gl);
+}
+
+void Render::renderFrames(Headless& headless, const OutputFolder& folder) {
+    Renderer& renderer = headless.renderer;
+    const Scene& scene = renderer.scene();
+    const int frames = o_.frames.value_or(kRenderFrames);
+    const Timeline timeline = lightTimeline(scene, o_.lights, frames);
+    const Settings settings = o_.settings();
+    FrameClock clock;
+    renderer.timer().setEnabled(true);
+    {
+        Progress progress(frames);
+        for (int frame = 0; frame < frames; ++frame) {
+            const auto lights = timeline.lightsAt(scene, frame);
+            const GpuTexture& display =
+                clock.render(renderer, inputAt(scene, frame, lights), settings);
+            if (last_ ? frame + 1 == frames : frame % every_ == 0)
+                write(renderer, display, folder, frame);
+            progress.advance(1.0, fmt::format("frame {} of {}", frame + 1, frames));
+        }
+    }
+    Json run = describeRun(headless);
+    run["timing"] = describe(clock);
+    folder.writeJson("run.json", run);
+    fmt::print("{}: {} frames of {}x{} with {}: {:.2f} ms a frame (median), {}; in {}\n",
+               scene.name, frames, renderer.size().x, renderer.size().y, nameOf(settings.filter),
+               clock.medianMilliseconds(), raysText(clock.raysPerSecond()), folder.path().string());
+}
+
+void Render::renderReference(Headless& headless, const OutputFolder& folder) {
+    Renderer& renderer = headless.renderer;
+    const Scene& scene = renderer.scene();
+    const int samples = *samples_;
+    const auto lights = lightTimeline(scene, o_.lights, 1).lightsAt(scene, 0);
+    const FrameInput input = inputAt(scene, 0, lights);
+    const Reference result = [&] {
+        Progress progress(samples);
+        return converge(renderer, input, input, o_.settings(), samples,
+                        [&](int count) { progress.advance(count, "samples"); });
+    }();
+    const double raysPerSecond = double(result.rays) / result.milliseconds * 1000.0;
+    write(renderer, renderer.targets().filters[0].display, folder, 0);
+    Json run = describeRun(headless);
+    run["samples"] = samples;
+    run["residual_rmse"] = result.residual;
+    run["timing"] = {{"total_ms", result.milliseconds},
+                     {"rays", result.rays},
+                     {"rays_per_second", raysPerSecond}};
+    folder.writeJson("run.json", run);
+    fmt::print("{}: {} samples a pixel at {}x{}: {:.2f} ms a sample, {}; in {}\n", scene.name,
+               samples, renderer.size().x, renderer.size().y, result.milliseconds / samples,
+               raysText(raysPerSecond), folder.path().string());
+}
+
+FrameInput Render::inputAt(const Scene& scene, int frame,
+                           std::span<const LightState> lights) const {
+    const double seconds = o_.animate ? frame / o_.rate.value_or(kRenderRate) : 0.0;
+    return {.camera = cameraAt(scene, poseAt(scene, seconds), cameraIndex(scene, o_.camera)),
             .seconds = seconds,
             .frame = std::uint32_t(frame),
-            .seed = options.seed,
+            .seed = o_.seed.value_or(0),
             .lights = lights};
 }
 
 /// Writes what was asked for of the frame that the renderer has just made.
-class FrameWriter {
-public:
-    FrameWriter(const RenderOptions& options, const OutputFolder& folder)
-        : aovs_(chosenAovs(options)), format_(options.format == "pfm" ? "pfm" : "exr"),
-          folder_(folder) {}
+void Render::write(const Renderer& renderer, const GpuTexture& display, const OutputFolder& folder,
+                   int frame) {
+    folder.writePng(frameStem("color", frame) + ".png", display.read<glm::u8vec4>());
+    for (const AovInfo* aov : o_.aovs)
+        writeAov(folder, o_.floatFormat(), renderer, *aov, frame);
+    written_.push_back(frame);
+}
 
-    void write(const Renderer& renderer, const GpuTexture& display, int frame) {
-        folder_.writePng(frameStem("color", frame) + ".png", display.read<glm::u8vec4>());
-        for (const AovInfo* aov : aovs_)
-            writeAov(folder_, format_, renderer, *aov, frame);
-        frames_.push_back(frame);
-    }
-
-    Json describe() const {
-        Json names = Json::array();
-        for (const AovInfo* aov : aovs_)
-            names.push_back(aov->name);
-        return {{"frames", frames_}, {"aovs", names}, {"aov_format", format_}};
-    }
-
-private:
-    std::vector<const AovInfo*> aovs_;
-    std::string format_;
-    const OutputFolder& folder_;
-    std::vector<int> frames_;
-};
-
-Json describeRun(const RenderOptions& options, const Headless& headless, std::size_t camera) {
-    Json lights = Json::array();
-    for (const LightEvent& event : options.lights)
+Json Render::describeRun(const Headless& headless) const {
+    Json lights = Json::array(), aovs = Json::array();
+    for (const LightEvent& event : o_.lights)
         lights.push_back({{"frame", event.frame},
                           {"light", event.light},
                           {"on", *event.on},
                           {"power", *event.power}});
+    for (const AovInfo* aov : o_.aovs)
+        aovs.push_back(aov->name);
+    const Settings settings = o_.settings();
     const Scene& scene = headless.renderer.scene();
+    const glm::ivec2 size = headless.renderer.size();
     return {{"program", "afterglow"},
             {"version", version()},
             {"command", "render"},
             {"scene", describe(scene, headless.renderer.sceneStats())},
-            {"camera", scene.cameras.at(camera).name},
+            {"camera", scene.cameras.at(cameraIndex(scene, o_.camera)).name},
             {"gl", describe(headless.gl)},
-            {"size", {options.size.x, options.size.y}},
-            {"frames", options.samples ? 1 : options.frames},
-            {"rate", options.rate},
-            {"animate", options.animate},
-            {"seed", options.seed},
-            {"filter", nameOf(options.settings.filter)},
-            {"signal", nameOf(Signal(options.settings.lighting.signal))},
+            {"size", {size.x, size.y}},
+            {"frames", samples_ ? 1 : o_.frames.value_or(kRenderFrames)},
+            {"rate", o_.rate.value_or(kRenderRate)},
+            {"animate", o_.animate},
+            {"seed", o_.seed.value_or(0)},
+            {"filter", nameOf(settings.filter)},
+            {"signal", nameOf(Signal(settings.lighting.signal))},
             {"light_changes", lights},
-            {"settings", Json::parse(toJson(options.settings).dump())}};
-}
-
-void renderFrames(const RenderOptions& options, Headless& headless, std::size_t camera,
-                  const OutputFolder& folder) {
-    Renderer& renderer = headless.renderer;
-    const Scene& scene = renderer.scene();
-    const Timeline timeline = lightTimeline(scene, options.lights, options.frames);
-    FrameWriter writer(options, folder);
-    FrameClock clock;
-    renderer.timer().setEnabled(true);
-    {
-        Progress progress(options.frames);
-        for (int frame = 0; frame < options.frames; ++frame) {
-            const auto lights = timeline.lightsAt(scene, frame);
-            const GpuTexture& display = clock.render(
-                renderer, inputAt(options, scene, camera, frame, lights), options.settings);
-            const bool isLast = frame + 1 == options.frames;
-            if (options.lastOnly ? isLast : frame % options.every == 0)
-                writer.write(renderer, display, frame);
-            progress.advance(1.0, "frame " + std::to_string(frame + 1) + " of " +
-                                      std::to_string(options.frames));
-        }
-    }
-    Json run = describeRun(options, headless, camera);
-    run["output"] = writer.describe();
-    run["timing"] = describe(clock);
-    folder.writeJson("run.json", run);
-    std::printf("%s: %d frames of %dx%d with %s: %.2f ms a frame (median), %s; in %s\n",
-                scene.name.c_str(), options.frames, options.size.x, options.size.y,
-                std::string(nameOf(options.settings.filter)).c_str(), clock.medianMilliseconds(),
-                raysText(clock.raysPerSecond()).c_str(), folder.path().c_str());
-}
-
-void renderReference(const RenderOptions& options, Headless& headless, std::size_t camera,
-                     const OutputFolder& folder) {
-    Renderer& renderer = headless.renderer;
-    const Scene& scene = renderer.scene();
-    const int samples = *options.samples;
-    FrameWriter writer(options, folder);
-    const auto lights = lightTimeline(scene, options.lights, 1).lightsAt(scene, 0);
-    const FrameInput input = inputAt(options, scene, camera, 0, lights);
-    const Reference result = [&] {
-        Progress progress(samples);
-        return converge(renderer, input, input, options.settings, samples,
-                        [&](int count) { progress.advance(count, "samples"); });
-    }();
-    writer.write(renderer, renderer.targets().filters[0].display, 0);
-    Json run = describeRun(options, headless, camera);
-    run["samples"] = samples;
-    run["residual_rmse"] = result.residual;
-    run["output"] = writer.describe();
-    run["timing"] = {{"total_ms", result.milliseconds},
-                     {"rays", result.rays},
-                     {"rays_per_second", double(result.rays) / result.milliseconds * 1000.0}};
-    folder.writeJson("run.json", run);
-    std::printf("%s: %d samples a pixel at %dx%d: %.2f ms a sample, %s; in %s\n",
-                scene.name.c_str(), samples, options.size.x, options.size.y,
-                result.milliseconds / samples,
-                raysText(double(result.rays) / result.milliseconds * 1000.0).c_str(),
-                folder.path().c_str());
+            {"settings", Json::parse(toJson(settings).dump())},
+            {"output", {{"frames", written_}, {"aovs", aovs}, {"aov_format", o_.floatFormat()}}}};
 }
 
 } // namespace
 
-void runRender(const RenderOptions& options, HiddenContextFactory hiddenContext) {
-    // What is wrong with the words themselves is said before any work is done.
-    chosenAovs(options);
-    if (options.samples && options.settings.filter != Filter::None)
-        throw UsageError(
-            "--spp makes the converged image of one moment, which no filter touches; it "
-            "needs --filter none");
-    for (const LightEvent& event : options.lights)
-        if (options.samples && event.frame > 0)
-            throw UsageError("--light " + event.light + "=...@" + std::to_string(event.frame) +
-                             ": --spp makes one image, so lights change at frame 0 only");
-    Scene scene = loadScene(options.scene);
-    const std::size_t camera = cameraIndex(scene, options.camera);
-    lightTimeline(scene, options.lights, options.frames);
-    const OutputFolder folder(options.out);
+std::size_t cameraIndex(const Scene& scene, std::string_view name) {
+    if (name.empty())
+        return 0;
+    std::vector<std::string_view> known;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (scene.cameras[i].name == name)
+            return i;
+        known.push_back(scene.cameras[i].name);
+    }
+    throw UsageError(scene.name + ": " + unknownName("camera", name, known));
+}
 
-    Headless headless(options.context, hiddenContext);
-    headless.resize(options.size);
-    headless.renderer.setScene(std::move(scene));
-    if (options.samples)
-        renderReference(options, headless, camera, folder);
-    else
-        renderFrames(options, headless, camera, folder);
-    tellSoftwareRenderer(headless.gl);
+MadeCommand renderCommand(Options& options) {
+    return std::make_unique<Render>(options);
 }
 
 } // namespace afterglow

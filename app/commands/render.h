@@ -1,35 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/commands/arguments.h"
-#include "app/commands/headless.h"
-#include "renderer/pipeline/settings.h"
-
-#include <optional>
+#include "app/commands/shared_options.h"
+#include "app/scenario/timeline.h"
+#include "renderer/pipeline/aov.h"
 
 namespace afterglow {
 
-/// What `afterglow render` was asked for.
+inline constexpr glm::ivec2 kRenderSize{640, 360};
+inline constexpr int kRenderFrames = 32;
+inline constexpr double kRenderRate = 60.0;
+
+/// What `afterglow render` is asked for, with --export and without.
 struct RenderOptions {
-    std::string scene;
-    std::string camera; ///< name of a scene camera; empty: the first
-    Settings settings;
-    glm::ivec2 size{640, 360};
-    int frames = 32;
-    std::uint32_t seed = 0;
-    double rate = 60.0;   ///< frames a second of scene time
-    bool animate = false; ///< the scene's own animation plays; otherwise time stands still at 0
-    ContextWish context;
-    std::vector<LightEvent> lights;
-    std::vector<std::string> aovs;
-    std::string format = "png"; ///< of AOVs: "pfm", else EXR; display images are always PNG
-    std::optional<int> samples; ///< instead of frames: the converged image of so many a pixel
-    int every = 1;              ///< writes frames 0, every, 2 every, ...
-    bool lastOnly = false;      ///< writes only the last frame
+    std::string source; ///< a scene; with --export also an experiment
     std::string out;
+    std::optional<Variant> filter; ///< or A-SVGF
+    SettingsGroup picture;
+    // Those that an experiment says itself where they are not given.
+    std::optional<int> frames;
+    std::optional<glm::ivec2> size;
+    std::optional<std::uint32_t> seed;
+    ContextGroup context;
+    std::vector<LightEvent> lights;
+    std::string camera;   ///< empty: the first of the scene
+    bool animate = false; ///< the scene's own animation plays; otherwise time stands still at 0
+    std::optional<double> rate; ///< frames a second of scene time
+    std::vector<const AovInfo*> aovs;
+    std::string format = "png"; ///< of AOVs: "pfm", else EXR; display images are always PNG
+
+    std::string floatFormat() const { return format == "pfm" ? "pfm" : "exr"; }
+    Settings settings() const {
+        return picture.changed(settingsOf(filter.value_or(variantOf(Filter::Asvgf)), Signal::Both));
+    }
 };
 
-/// Writes frames, AOVs and run.json. Prints a summary on standard output.
-void runRender(const RenderOptions& options, HiddenContextFactory hiddenContext);
+/// Returns the index of a camera of the scene; the empty name is the first.
+std::size_t cameraIndex(const Scene& scene, std::string_view name);
+
+/// Throws UsageError for what --export cannot do.
+void checkExport(const RenderOptions& options);
+
+/// Writes what a denoiser needs of every frame, and export.json.
+void exportForDenoiser(const RenderOptions& options, HiddenContextFactory hiddenContext);
 
 } // namespace afterglow

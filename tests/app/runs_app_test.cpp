@@ -42,6 +42,17 @@ Run experiment(const Words& what, const std::string& out) {
     return afterglow(experimentWords(what, out));
 }
 
+// Asks a run to end as soon as it has begun to write, and returns its last words.
+std::string interruptRun(const Words& what, const std::string& out) {
+    std::string command = "\"$AFTERGLOW_BIN\"";
+    for (const std::string& word : experimentWords(what, out))
+        command += " '" + word + "'";
+    command += " >/dev/null 2>'" + out + ".err' & while kill -0 $! && [ ! -e '" + out +
+               "/unfinished.json' ]; do sleep 0.05; done; kill -TERM $!; wait $!";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 130);
+    return bytesOf(out + ".err");
+}
+
 void checkSameRun(const fs::path& a, const fs::path& b) {
     const std::vector<std::string> files = filesIn(a);
     CHECK(files == filesIn(b));
@@ -153,13 +164,7 @@ TEST_CASE("a run that was interrupted leaves no half file and goes on where it w
     const auto made = fs::last_write_time(folder / "cut/fixed/frame_0003.png");
     fs::remove(folder / "cut/experiment.json");
     fs::remove(folder / "cut/summary.json");
-    std::string command = "timeout -s INT 0.6 \"$AFTERGLOW_BIN\"";
-    for (const std::string& word : experimentWords({file, "--spp", "4096"}, folder / "long"))
-        command += " '" + word + "'";
-    const int status =
-        std::system((command + " >/dev/null 2>'" + std::string(folder / "err") + "'").c_str());
-    CHECK(WEXITSTATUS(status) == 124); // of timeout: it had to ask
-    CHECK(bytesOf(folder / "err") ==
+    CHECK(interruptRun({file, "--spp", "1000000"}, folder / "long") ==
           "afterglow: interrupted; the same command goes on from here\n");
     CHECK_FALSE(fs::exists(folder / "long/summary.json"));
     if (fs::exists(folder / "long"))
@@ -277,12 +282,7 @@ TEST_CASE("a run that was interrupted keeps its folder") {
     const TemporaryFolder folder;
     const std::string a = eventful(folder, "first"), b = eventful(folder, "second");
     const std::string out = folder / "out";
-    std::string command = "\"$AFTERGLOW_BIN\"";
-    for (const std::string& word : experimentWords({a, "--spp", "1000000"}, out))
-        command += " '" + word + "'";
-    command += " >/dev/null 2>&1 & while kill -0 $! && [ ! -e '" + out +
-               "/unfinished.json' ]; do sleep 0.05; done; kill -TERM $!; wait $!";
-    CHECK(WEXITSTATUS(std::system(command.c_str())) == 130);
+    interruptRun({a, "--spp", "1000000"}, out);
     CHECK(filesIn(out) == std::vector<std::string>{"unfinished.json"});
     const Run other = experiment({b}, out);
     CHECK(other.exitCode == 2);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "app/report/report.h"
+
+#include "app/commands/command.h"
+
+#include <fmt/format.h>
+
+namespace afterglow {
+
+namespace {
+
+/// The page of a run, or of a folder of runs, anew.
+class Report final : public Command {
+public:
+    explicit Report(Options& options) {
+        options.require("DIR", folder_, anyText(""), "Folder of a run, or of several");
+        options.setFooter(R"(Makes DIR/report.html anew from the files of the runs.)");
+    }
+
+    void run(HiddenContextFactory) override {
+        writeReport(folder_);
+        fmt::print("report: {}\n", (std::filesystem::path(folder_) / "report.html").string());
+    }
+
+private:
+    std::string folder_;
+};
+
+} // namespace
+
+MadeCommand reportCommand(Options& options) {
+    return std::make_unique<Report>(options);
+}
+
+} // namespace afterglow
