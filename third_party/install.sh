@@ -13,7 +13,7 @@ packages=(
 )
 if [ "${1:-}" = --tests ]; then
     packages+=(doctest-dev libembree-dev glslang-tools xvfb xauth xdotool 9wm libxcb1-dev
-        python3-skimage python3-numpy ffmpeg chromium mesa-vulkan-drivers)
+        clang-format python3-skimage python3-numpy ffmpeg chromium mesa-vulkan-drivers)
     command -v node >/dev/null || packages+=(nodejs npm)
 fi
 

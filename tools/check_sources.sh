@@ -14,27 +14,29 @@ mapfile -t slashes < <(git ls-files "${cpp[@]}" ':*.js' ':*.mjs')
 mapfile -t hashes < <(git ls-files ':*CMakeLists.txt' ':*.cmake' ':*.sh' ':*.py' check demo .ci/run)
 mapfile -t formatted < <(git ls-files "${cpp[@]}")
 
-# The line stands first, or behind the line that names the interpreter.
-names_license() { head -n 2 "$1" | grep -qF "$license"; }
-add_license() { # FILE COMMENT
-    local at=1
-    head -n 1 "$1" | grep -q '^#!' && at=2
-    sed -i "${at}i $2 $license" "$1"
+# Names the files among the given ones in which the license stands in neither of the first two lines.
+without_license() {
+    awk -v license="$license" 'FNR <= 2 && index($0, license) { named[FILENAME] = 1 }
+        END { for (i = 1; i < ARGC; ++i) if (!(ARGV[i] in named)) print ARGV[i] }' "$@"
 }
 
 failed=0
-for file in "${slashes[@]}" "${hashes[@]}"; do
-    names_license "$file" && continue
-    if [ "$fix" = yes ]; then
-        case "$file" in
-        *.cpp | *.h | *.comp | *.vert | *.frag | *.glsl | *.js | *.mjs) add_license "$file" '//' ;;
-        *) add_license "$file" '#' ;;
-        esac
-    else
-        echo "$file: does not name its license (tools/check_sources.sh --fix adds it)" >&2
-        failed=1
-    fi
-done
+add_or_refuse() { # COMMENT FILE...
+    local comment=$1 file at
+    shift
+    for file in $(without_license "$@"); do
+        if [ "$fix" = yes ]; then
+            at=1 # or behind the line that names the interpreter
+            head -n 1 "$file" | grep -q '^#!' && at=2
+            sed -i "${at}i $comment $license" "$file"
+        else
+            echo "$file: does not name its license (tools/check_sources.sh --fix adds it)" >&2
+            failed=1
+        fi
+    done
+}
+add_or_refuse '//' "${slashes[@]}"
+add_or_refuse '#' "${hashes[@]}"
 
 if [ "$fix" = yes ]; then
     clang-format -i "${formatted[@]}"
