@@ -4,11 +4,11 @@
 #include "app/measure/response.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <span>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
@@ -95,6 +95,14 @@ bool isStep(const Level& before, const Level& after, double errors) {
            step >= kLeastStep * larger;
 }
 
+/// A step that is known to be below the least one. What is neither this nor a step is hidden by
+/// noise.
+bool isTooSmall(const Level& before, const Level& after, double errors) {
+    const double step = std::abs(after.mean - before.mean);
+    const double larger = std::max(std::abs(after.mean), std::abs(before.mean));
+    return step + errors * std::hypot(before.error, after.error) <= kLeastStep * larger;
+}
+
 bool concerns(const ProbeMark& mark, std::size_t pane) {
     return !mark.pane || *mark.pane == pane;
 }
@@ -164,36 +172,39 @@ std::vector<double> between(const Samples& shown, double before, double target) 
     return p;
 }
 
-std::string written(double value) {
-    std::array<char, 400> text; // the largest double has 309 digits
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value,
-                                       std::chars_format::fixed, 1)
-                             .ptr};
-}
-
-std::string counted(int frames) {
-    return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
-}
-
 } // namespace
 
-LiveResponse liveResponse(const ProbeLog& log, std::size_t probe, std::size_t pane) {
-    for (std::size_t i = log.frames().size(); i-- > 0;)
-        if (isStepAlone(log.frames()[i], pane))
+LiveResponse liveResponse(const ProbeLog& log, std::size_t probe, std::size_t pane,
+                          std::string_view settings) {
+    for (std::size_t i = log.frames().size(); i-- > 0;) {
+        const ProbeFrame& frame = log.frames()[i];
+        if (!isStepAlone(frame, pane))
+            continue;
+        if (frame.panes[pane].settings == settings)
             return responseTo(log, probe, pane, i);
+        LiveResponse response;
+        response.status = LiveResponse::Status::NotMeasured;
+        response.event = namesOf(frame, pane);
+        response.over = true;
+        return response;
+    }
     return {};
 }
 
 LiveResponse responseTo(const ProbeLog& log, std::size_t probe, std::size_t pane,
                         std::size_t index) {
+    using Status = LiveResponse::Status;
     LiveResponse response;
     if (!isStepAlone(log.frames().at(index), pane))
         return response;
+    const auto& box = log.frames()[index].probes.at(probe);
+    response.isOnePixel = box && box->size == glm::ivec2(1);
     response.event = namesOf(log.frames()[index], pane);
     const Samples past = samplesBefore(log, probe, pane, index);
     const Samples shown = samplesSince(log, probe, pane, index);
     response.framesSince = std::max(0, int(shown.size()) - 1);
     response.over = index + shown.size() < log.frames().size();
+    response.status = response.over ? Status::NotMeasured : Status::Waiting;
     if (past.empty() || shown.empty())
         return response;
 
@@ -204,7 +215,8 @@ LiveResponse responseTo(const ProbeLog& log, std::size_t probe, std::size_t pane
     if (!std::isfinite(before.error) || !std::isfinite(light.error))
         return response;
     response.targetError = light.error;
-    response.status = LiveResponse::Status::TooSmall;
+    response.status =
+        isTooSmall(lightBefore, light, kSignalErrors) ? Status::TooSmall : Status::TooNoisy;
     // A pane that is still on its way from an event before this one moves all the same.
     if (!isStep(lightBefore, light, kSignalErrors))
         return response;
@@ -218,35 +230,53 @@ LiveResponse responseTo(const ProbeLog& log, std::size_t probe, std::size_t pane
             !isLiveStep ||
             betweenOwnValues({}, 0.0, (own.mean - before.mean) / (light.mean - before.mean));
         if (hasMoved && isStep(before, own, kErrors)) {
-            claim(response, LiveResponse::Status::Settled, own,
-                  between(shown, before.mean, own.mean));
+            claim(response, Status::Settled, own, between(shown, before.mean, own.mean));
             return response;
         }
     }
     if (isLiveStep)
-        claim(response, LiveResponse::Status::Live, light, between(shown, before.mean, light.mean));
+        claim(response, Status::Live, light, between(shown, before.mean, light.mean));
     return response;
+}
+
+std::string timeText(const LiveResponse& response, const std::optional<int>& frames) {
+    if (frames)
+        return std::to_string(*frames);
+    return response.over ? fmt::format("> {}", response.framesSince) : "not yet";
+}
+
+std::string ghostText(const LiveResponse& response) {
+    return fmt::format("{}{:.1f}", response.over && !response.t90 ? "> " : "",
+                       response.ghostFrames);
+}
+
+std::string statusText(const LiveResponse& response) {
+    using Status = LiveResponse::Status;
+    if (response.event.empty())
+        return "no change yet";
+    switch (response.status) {
+    case Status::Waiting: return "measuring";
+    case Status::NotMeasured: return "not measured";
+    case Status::TooSmall: return "step too small";
+    case Status::TooNoisy: return response.isOnePixel ? "one pixel: too noisy" : "too noisy";
+    case Status::Live:
+        return response.over ? "cut short" : fmt::format("live, {}", response.framesSince);
+    case Status::Settled: return "settled";
+    }
+    return {};
 }
 
 std::string describe(const LiveResponse& response) {
     using Status = LiveResponse::Status;
     if (response.event.empty())
         return "no change of light yet";
-    const std::string event = response.event + ": ";
-    if (response.status == Status::Waiting)
-        return event + (response.over ? "not enough frames to measure" : "waiting for more frames");
-    if (response.status == Status::TooSmall)
-        return event + "too small a step to measure here";
-    const bool mayCome = response.status == Status::Live && !response.over;
-    const auto time = [&](const std::optional<int>& frames) {
-        return frames ? std::to_string(*frames) : std::string(mayCome ? "not yet" : "never");
-    };
-    std::string end = "settled";
-    if (response.status == Status::Live)
-        end = (response.over ? "cut short at " : "") + counted(response.framesSince);
-    return event + "t50 " + time(response.t50) + ", t90 " + time(response.t90) + ", " +
-           written(response.ghostFrames) + " ghost frames " + (mayCome ? "so far " : "") + "(" +
-           end + ")";
+    if (!response.claimed())
+        return response.event + ": " + statusText(response);
+    const bool isLive = response.status == Status::Live;
+    return fmt::format("{}: t50 {}, t90 {}, {} ghost frames{} ({})", response.event,
+                       timeText(response, response.t50), timeText(response, response.t90),
+                       ghostText(response), isLive && !response.over ? " so far" : "",
+                       statusText(response));
 }
 
 } // namespace afterglow

@@ -3,10 +3,12 @@
 
 #include "app/measure/live_response.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
@@ -16,7 +18,7 @@ constexpr std::string_view kHead =
     "raw_variance,variance,lambda,alpha,history,response\n";
 
 std::string inQuotes(std::string_view text) {
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos)
+    if (text.find_first_of(",\"#\r\n") == std::string_view::npos)
         return std::string(text);
     std::string out = "\"";
     for (const char character : text)
@@ -25,10 +27,7 @@ std::string inQuotes(std::string_view text) {
 }
 
 std::string written(double value) {
-    if (!std::isfinite(value))
-        return {};
-    std::array<char, 32> text;
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
 std::string eventsOf(const ProbeFrame& frame) {
@@ -38,17 +37,44 @@ std::string eventsOf(const ProbeFrame& frame) {
     return events;
 }
 
+/// Returns one line, whatever breaks the text has.
+std::string fact(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return "# " + text + "\n";
+}
+
 /// By index of the log's frames; empty where none is claimed.
 using Curve = std::vector<std::optional<double>>;
 
-Curve curveOf(const ProbeLog& log, std::size_t probe, std::size_t pane) {
+/// Fills the curve of a pane at a probe, and adds a line for every change of light that it met.
+Curve curveOf(const ProbeLog& log, std::size_t probe, std::size_t pane, std::string& facts) {
     Curve curve(log.frames().size());
     for (std::size_t i = 0; i < curve.size(); ++i) {
+        const ProbeFrame& frame = log.frames()[i];
         const LiveResponse response = responseTo(log, probe, pane, i);
         for (std::size_t k = 0; k < response.p.size(); ++k)
             curve[i + k] = response.p[k];
+        if (!response.event.empty() && frame.samples[probe][pane])
+            facts += fact(fmt::format("result: probe {}, pane {}, {}, frame {}, {}",
+                                      letterOf(probe), letterOf(pane), frame.panes[pane].title,
+                                      frame.frame, describe(response)));
     }
     return curve;
+}
+
+std::string settingsFacts(const ProbeLog& log, std::size_t pane) {
+    std::string facts;
+    const ProbePane* last = nullptr;
+    for (const ProbeFrame& frame : log.frames()) {
+        const ProbePane& now = frame.panes[pane];
+        if (now.title.empty() || (last && now == *last))
+            continue;
+        facts += fact(fmt::format("pane {} from frame {}: {}: {}", letterOf(pane), frame.frame,
+                                  now.title, now.settings));
+        last = &now;
+    }
+    return facts;
 }
 
 std::string rowOf(const ProbeFrame& frame, std::size_t probe, std::size_t pane,
@@ -56,11 +82,9 @@ std::string rowOf(const ProbeFrame& frame, std::size_t probe, std::size_t pane,
     const Probe& box = *frame.probes[probe];
     const ProbeSample& sample = *frame.samples[probe][pane];
     std::string row =
-        std::to_string(frame.frame) + "," + inQuotes(eventsOf(frame)) + "," + letterOf(probe);
-    for (const int value : {box.min.x, box.min.y, box.size.x, box.size.y})
-        row += "," + std::to_string(value);
-    row += std::string(",") + letterOf(pane) + "," + inQuotes(frame.panes[pane]) + "," +
-           std::to_string(sample.pixels);
+        fmt::format("{},{},{},{},{},{},{},{},{},{}", frame.frame, inQuotes(eventsOf(frame)),
+                    letterOf(probe), box.min.x, box.min.y, box.size.x, box.size.y, letterOf(pane),
+                    inQuotes(frame.panes[pane].title), sample.pixels);
     for (const double value : {sample.lit, sample.rawLit, sample.rawVariance, sample.variance,
                                sample.lambda, sample.alpha, sample.history})
         row += "," + (sample.pixels > 0 ? written(value) : std::string());
@@ -69,12 +93,19 @@ std::string rowOf(const ProbeFrame& frame, std::size_t probe, std::size_t pane,
 
 } // namespace
 
-std::string toCsv(const ProbeLog& log) {
+std::string toCsv(const ProbeLog& log, const ProbeRun& run) {
+    std::string facts = fact("scene: " + run.scene) + fact(fmt::format("seed: {}", run.seed)) +
+                        fact(fmt::format("size: {}x{}", run.size.x, run.size.y));
+    for (std::size_t pane = 0; pane < kPanes; ++pane)
+        facts += settingsFacts(log, pane);
+    for (const ProbeFrame& frame : log.frames())
+        if (!frame.marks.empty())
+            facts += fact(fmt::format("event: frame {}, {}", frame.frame, eventsOf(frame)));
     std::array<std::array<Curve, kPanes>, kProbes> curves;
     for (std::size_t probe = 0; probe < kProbes; ++probe)
         for (std::size_t pane = 0; pane < kPanes; ++pane)
-            curves[probe][pane] = curveOf(log, probe, pane);
-    std::string text(kHead);
+            curves[probe][pane] = curveOf(log, probe, pane, facts);
+    std::string text = facts + std::string(kHead);
     for (std::size_t i = 0; i < log.frames().size(); ++i) {
         const ProbeFrame& frame = log.frames()[i];
         for (std::size_t probe = 0; probe < kProbes; ++probe)

@@ -7,11 +7,20 @@
 
 namespace afterglow {
 
-/// All that the log holds as comma-separated values (RFC 4180, but with line ends of "\n"), for
-/// other programs to read: one row for every frame, probe and pane that has a sample. Numbers are
-/// as short as they can be read back exactly; a field is empty where there is no number. The
-/// response is that to the last change of light before or in the frame, as it is known at the end
-/// of the log, and only where one is claimed.
-std::string toCsv(const ProbeLog& log);
+/// What a log was measured in, and what each of its frames has in common with all others.
+struct ProbeRun {
+    std::string scene; ///< a scene or an experiment, as it was asked for
+    std::uint32_t seed = 0;
+    glm::ivec2 size{0}; ///< of the rendered picture, in pixels
+};
+
+/// All that the log holds, for other programs to read. First one fact a line after "# ": the run,
+/// the settings of each pane from the frame on in which they began, the events, and how each pane
+/// answered each of them at each probe. Then comma-separated values (RFC 4180, but with line ends
+/// of "\n"): one row for every frame, probe and pane that has a sample. Numbers are as short as
+/// they can be read back exactly; a field is empty where there is no number. The response is that
+/// to the last change of light before or in the frame, as it is known at the end of the log, and
+/// only where one is claimed.
+std::string toCsv(const ProbeLog& log, const ProbeRun& run);
 
 } // namespace afterglow

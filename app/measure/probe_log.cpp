@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 namespace afterglow {
 namespace {
 
@@ -42,6 +44,12 @@ Probe probeAt(glm::ivec2 pixel, glm::ivec2 image) {
     return probeBetween(pixel, pixel, image);
 }
 
+Probe probeAround(glm::ivec2 pixel, glm::ivec2 image) {
+    requireSize(image);
+    const glm::ivec2 size = glm::min(glm::ivec2(kClickBox), image);
+    return {glm::clamp(pixel - kClickBox / 2, glm::ivec2(0), image - size), size};
+}
+
 Probe probeBetween(glm::ivec2 corner, glm::ivec2 opposite, glm::ivec2 image) {
     requireSize(image);
     const glm::ivec2 last = image - 1;
@@ -61,17 +69,20 @@ Probe rescaled(const Probe& probe, glm::ivec2 from, glm::ivec2 to) {
 void ProbeLog::add(ProbeFrame frame) {
     for (std::size_t probe = 0; probe < kProbes; ++probe) {
         for (std::size_t pane = 0; pane < kPanes; ++pane)
-            if (frame.samples[probe][pane] && (!frame.probes[probe] || frame.panes[pane].empty()))
+            if (frame.samples[probe][pane] &&
+                (!frame.probes[probe] || frame.panes[pane].title.empty()))
                 throw std::logic_error("a probe's sample needs its probe and its pane");
     }
     if (!frames_.empty()) {
         const ProbeFrame& last = frames_.back();
         for (std::size_t pane = 0; pane < kPanes; ++pane) {
-            const std::string& name = frame.panes[pane];
-            if (!name.empty() && !last.panes[pane].empty() && name != last.panes[pane])
-                frame.marks.push_back({.text = std::string("pane ") + letterOf(pane) + ": " + name,
-                                       .step = false,
-                                       .pane = pane});
+            const ProbePane &now = frame.panes[pane], &before = last.panes[pane];
+            if (now.title.empty() || before.title.empty() || now.settings == before.settings)
+                continue;
+            const std::string what = now.title == before.title ? "new settings" : now.title;
+            frame.marks.push_back({.text = fmt::format("pane {}: {}", letterOf(pane), what),
+                                   .step = false,
+                                   .pane = pane});
         }
         for (std::size_t probe = 0; probe < kProbes; ++probe)
             if (frame.probes[probe] != last.probes[probe])

@@ -34,8 +34,12 @@ struct Probe {
 
 // `image` is a size in pixels, at least 1 x 1. What lies outside it is moved to its edge.
 
-/// Exactly that pixel.
+/// Exactly that pixel. The noise of one pixel hides most changes of light.
 Probe probeAt(glm::ivec2 pixel, glm::ivec2 image);
+/// Pixels along each edge of the box that a click sets.
+constexpr int kClickBox = 9;
+/// The box of kClickBox x kClickBox pixels around a pixel, moved to lie inside the picture.
+Probe probeAround(glm::ivec2 pixel, glm::ivec2 image);
 /// The box with these pixels in two opposite corners, whichever they are; both belong to it.
 Probe probeBetween(glm::ivec2 corner, glm::ivec2 opposite, glm::ivec2 image);
 /// The same part of a picture of another size, at least one pixel. It rounds to pixels: for a size
@@ -54,6 +58,14 @@ struct ProbeSample {
     double history = 0.0;     ///< mean length, frames
 };
 
+/// A pane in one frame, and all that its picture was made with.
+struct ProbePane {
+    std::string title;    ///< "Fixed alpha 0.1"; empty: there is no such pane
+    std::string settings; ///< "filter=fixed alpha=0.1"; a response is bound to them
+
+    bool operator==(const ProbePane&) const = default;
+};
+
 /// Something that happened for the first time in a frame.
 struct ProbeMark {
     std::string text;                ///< "key off"
@@ -64,7 +76,7 @@ struct ProbeMark {
 struct ProbeFrame {
     std::uint32_t frame = 0;
     std::vector<ProbeMark> marks;
-    std::array<std::string, kPanes> panes; ///< the filters' names; empty: no such pane
+    std::array<ProbePane, kPanes> panes;
     std::array<std::optional<Probe>, kProbes> probes;
     /// By probe, then pane. Empty: there is no such probe, or the pane did not run.
     std::array<std::array<std::optional<ProbeSample>, kPanes>, kProbes> samples;
@@ -76,8 +88,8 @@ public:
     static constexpr std::size_t kFrames = 600;
 
     /// A probe that is not where it was in the frame before starts again: what it read is
-    /// forgotten. A pane whose filter is another than in the frame before gets a mark, "pane B:
-    /// svgf", and goes on. std::logic_error for a sample without its probe or its pane.
+    /// forgotten. A pane whose settings are not those of the frame before gets a mark, "pane B:
+    /// SVGF", and goes on. std::logic_error for a sample without its probe or its pane.
     void add(ProbeFrame frame);
     void clear() { frames_.clear(); }
     void restart(std::size_t probe);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace afterglow {
 namespace {
 
@@ -17,7 +19,7 @@ struct Cell {
     bool isNumber = false;
 };
 
-/// What is said of one pane.
+/// The texts of one pane's row.
 struct TableRow {
     std::size_t pane = 0;
     Cell cells[3];
@@ -25,34 +27,16 @@ struct TableRow {
 };
 
 TableRow responseRow(const PanelContext& panel, std::size_t pane, const LiveResponse& response) {
-    using Status = LiveResponse::Status;
     TableRow row{.pane = pane,
                  .cells = {{"\xe2\x80\x93"}, {"\xe2\x80\x93"}, {"\xe2\x80\x93"}},
-                 .status = {},
-                 .help = "Pane " + std::string(1, letterOf(pane)) + ", " +
-                         titleOf(panel.state.panes.all[pane]) + "\n" + describe(response)};
-    const auto frames = [&](const std::optional<int>& t) -> Cell {
-        if (t)
-            return {std::to_string(*t), true};
-        return {response.status == Status::Live && !response.over ? "..." : "never"};
-    };
-    switch (response.status) {
-    case Status::Waiting:
-        row.status = response.event.empty() ? "no change yet"
-                     : response.over        ? "not measured"
-                                            : "measuring";
-        break;
-    case Status::TooSmall: row.status = "step too small"; break;
-    case Status::Live:
-        row.status = response.over ? "cut short" : formatted("live, %d", response.framesSince);
-        break;
-    case Status::Settled: row.status = "settled"; break;
-    }
-    if (response.claimed()) {
-        row.cells[0] = frames(response.t50);
-        row.cells[1] = frames(response.t90);
-        row.cells[2] = {formatted("%.1f", response.ghostFrames), true};
-    }
+                 .status = statusText(response),
+                 .help = fmt::format("Pane {}, {}\n{}", letterOf(pane),
+                                     titleOf(panel.state.panes, pane), describe(response))};
+    if (!response.claimed())
+        return row;
+    for (const auto& [cell, frames] : {std::pair(0, response.t50), {1, response.t90}})
+        row.cells[cell] = {timeText(response, frames), frames || response.over};
+    row.cells[2] = {ghostText(response), true};
     return row;
 }
 
@@ -90,7 +74,7 @@ void drawRow(const PanelContext& panel, const TableRow& row, const Columns& colu
     if (columns.hasTitle) {
         const float room = columns.ends[0] - 3.2f * em() - columns.title;
         draw.AddText({at.x + columns.title, text}, packed(color::kText),
-                     clipped(titleOf(panel.state.panes.all[row.pane]), room).c_str());
+                     clipped(titleOf(panel.state.panes, row.pane), room).c_str());
     }
     ImGui::PushFont(panel.fonts.small);
     draw.AddText({at.x + columns.status, std::round(middle - 0.5f * em())}, packed(color::kDim),
@@ -176,7 +160,7 @@ void valueTable(const PanelContext& panel, std::span<const CurveLine> lines, con
                    paneColor(line.pane));
         draw.AddText({where.min.x + letterSize() + 0.5f * em(), std::round(middle - 0.5f * em())},
                      packed(color::kText),
-                     clipped(titleOf(panel.state.panes.all[line.pane]), 9.0f * em()).c_str());
+                     clipped(titleOf(panel.state.panes, line.pane), 9.0f * em()).c_str());
         const float value = line.values.empty() ? NAN : line.values.back();
         ImGui::PushFont(height > 2.0f * em() ? panel.fonts.large : panel.fonts.strong);
         textUpTo(draw, {where.end().x - 0.5f * em(), middle - 0.5f * em()}, paneColor(line.pane),

@@ -60,7 +60,7 @@ void probeTabs(const PanelContext& panel) {
                               probe.min.x, probe.min.y);
         }
         tooltip(help + ".\nA click in the picture moves the active probe, a drag makes a box. "
-                       "With Shift held, another probe.");
+                       "With Shift held, another probe; with Ctrl held, one pixel.");
         ImGui::PopID();
         ImGui::SameLine(0.0f, 0.25f * em());
     }
@@ -79,27 +79,16 @@ void buttons(const PanelContext& panel) {
     }
     tooltip("What is drawn: the mean over the probe in every frame. Key Z: the next.");
 
-    struct Choice {
-        const char *label, *help;
-        Action action;
-    };
-    constexpr Choice choices[] = {
-        {"Copy", "Copies all curves as CSV: a row for every frame, probe and pane. Key Ctrl C.",
+    constexpr ActionButton choices[] = {
+        {"Copy", "Copies all curves as CSV, with settings, events and results. Key Ctrl C.",
          Action::CopyCurves},
         {"Save", "Saves all curves as a CSV file. Key Ctrl E.", Action::SaveCurves},
-        {"Clear", "Removes all probes. Key Shift J.", Action::ClearProbes},
-    };
-    const float width = 3.9f * em(), gap = 0.3f * em();
+        {"Clear", "Removes all probes. Key Shift J.", Action::ClearProbes}};
+    const float width = 12.3f * em();
     ImGui::SameLine();
-    const float right = ImGui::GetWindowContentRegionMax().x - 3.0f * width - 2.0f * gap;
-    ImGui::SetCursorPosX(std::max(right, ImGui::GetCursorPosX()));
-    for (const Choice& choice : choices) {
-        if (litButton(choice.label, false, width))
-            perform(state, {choice.action});
-        tooltip(choice.help);
-        ImGui::SameLine(0.0f, gap);
-    }
-    ImGui::NewLine();
+    ImGui::SetCursorPosX(
+        std::max(ImGui::GetWindowContentRegionMax().x - width, ImGui::GetCursorPosX()));
+    actionRow(state, choices, width);
 }
 
 // All values of one frame.
@@ -146,8 +135,8 @@ void body(const PanelContext& panel) {
     std::vector<CurveLine> lines = linesOf(panel);
     if (lines.empty()) {
         ImGui::SetCursorScreenPos({at.x, at.y + 0.35f * room.y - 0.5f * em()});
-        const std::string hint = "Click a pixel or drag a box in the picture to measure there, or "
-                                 "press J at the mouse.";
+        const std::string hint = "Click or drag a box in the picture to measure there, or press J "
+                                 "at the mouse.";
         ImGui::SetCursorPosX(
             std::max(ImGui::GetCursorPosX(), 0.5f * (ImGui::GetWindowWidth() - widthOf(hint))));
         return dimWrapped(hint);
@@ -158,7 +147,8 @@ void body(const PanelContext& panel) {
         for (CurveLine& line : lines) {
             if (line.probe != state.activeProbe)
                 continue;
-            LiveResponse response = liveResponse(panel.bench.probeLog(), line.probe, line.pane);
+            LiveResponse response = liveResponse(panel.bench.probeLog(), line.probe, line.pane,
+                                                 recordOf(state.panes, line.pane).settings);
             if (response.claimed() && !response.over) {
                 line.event = line.values.size() - 1 - std::size_t(response.framesSince);
                 line.t50 = response.t50;

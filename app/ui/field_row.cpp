@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
@@ -24,24 +25,14 @@ std::string formatOf(const Field& field) {
     return format;
 }
 
-std::string number(double value) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.4g", value);
-    return digits;
-}
-
 std::string helpOf(const Field& field) {
-    std::string help{field.label};
-    help += "\n" + std::string(field.meaning);
-    if (field.choices.empty())
-        help += "\nRange " + number(field.min) + " to " + number(field.max) +
-                (field.unit.empty() ? "" : " " + std::string(field.unit)) + ". Ctrl-click to type.";
-    help += "\nDefault " + valueText(field, fieldValue(Settings{}, field)) + " (" +
-            std::string(field.source) + ").";
-    if (field.isFrameWide())
-        help += "\nFor all panes.";
-    help += "\nOn the command line: --set " + std::string(field.key) + "=";
-    return help;
+    const std::string range = field.choices.empty()
+                                  ? fmt::format("\nRange {:.4g} to {}. Ctrl-click to type.",
+                                                field.min, valueText(field, field.max))
+                                  : "";
+    return fmt::format("{}\n{}{}\nDefault {} ({}).{}\nOn the command line: --set {}=", field.label,
+                       field.meaning, range, valueText(field, fieldValue(Settings{}, field)),
+                       field.source, field.isFrameWide() ? "\nFor all panes." : "", field.key);
 }
 
 } // namespace

@@ -34,8 +34,8 @@ Label labelOf(const PanelContext& panel, std::size_t pane) {
                 .note = {}};
     if (panes.layout == PaneLayout::Difference) {
         label.letters = {panes.pair[0], panes.pair[1]};
-        label.title = titleOf(panes.all[panes.pair[0]]) + " \xe2\x80\x93 " +
-                      titleOf(panes.all[panes.pair[1]]);
+        label.title =
+            titleOf(panes, panes.pair[0]) + " \xe2\x80\x93 " + titleOf(panes, panes.pair[1]);
         label.details = formatted("\xc3\x97 %.3g", double(panes.gain));
     } else if (const auto placement = placementNote(panes, pane); !placement.empty()) {
         label.details += (label.details.empty() ? "" : ", ") + std::string(placement);

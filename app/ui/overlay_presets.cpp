@@ -126,14 +126,14 @@ void useButtons(const PanelContext& panel, const PresetStore::Entry& entry) {
     const float gap = 0.3f * em();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Use in pane");
-    for (std::size_t pane = 0; pane < kFilterStates; ++pane) {
+    for (std::size_t pane = 0; pane < state.panes.count; ++pane) {
         ImGui::SameLine(0.0f, pane == 0 ? 0.7f * em() : gap);
         if (litButton(letter(pane).c_str(), pane == state.panes.active, 2.6f * em(),
                       color::kPanes[pane])) {
             setPane(state.panes, pane, shownTitle(entry), settingsOf(entry.preset));
             notify(state, "Pane " + letter(pane) + ": " + shownTitle(entry));
         }
-        tooltip("Sets pane " + letter(pane) + ", which is " + titleOf(state.panes.all[pane]) +
+        tooltip("Sets pane " + letter(pane) + ", which is " + titleOf(state.panes, pane) +
                 " now. Lighting and exposure stay as they are.");
     }
     if (entry.builtIn)
@@ -203,15 +203,12 @@ void saveRow(const PanelContext& panel) {
     else if (save && !name.empty())
         notify(state, "'" + name + "' cannot name a preset", true);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - 2.0f * button - gap);
-    if (litButton("Copy", false, button))
-        perform(state, {Action::CopyPreset});
-    tooltip("Ctrl Shift C. Copies pane " + letter(state.panes.active) +
-            " as the text of a preset.");
-    ImGui::SameLine(0.0f, gap);
-    if (litButton("Paste", false, button))
-        perform(state, {Action::PastePreset});
-    tooltip("Ctrl Shift V. Sets pane " + letter(state.panes.active) +
-            " to the preset on the clipboard.");
+    const std::string pane = "pane " + letter(state.panes.active);
+    const std::string copy = "Ctrl Shift C. Copies " + pane + " as the text of a preset.";
+    const std::string paste = "Ctrl Shift V. Sets " + pane + " to the preset on the clipboard.";
+    const ActionButton buttons[] = {{"Copy", copy.c_str(), Action::CopyPreset},
+                                    {"Paste", paste.c_str(), Action::PastePreset}};
+    actionRow(state, buttons, 2.0f * button + gap);
 }
 
 } // namespace

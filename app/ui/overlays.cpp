@@ -8,9 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 namespace afterglow {
@@ -45,25 +45,20 @@ std::string statusFlag(const ViewState& state) {
 
 std::vector<std::string> statusParts(const PanelContext& panel) {
     const ViewState& state = panel.state;
-    const Pane& active = state.panes.all[state.panes.active];
     const FrameStats& stats = panel.bench.stats();
     const glm::ivec2 size = panel.bench.imageSize();
     std::vector<std::string> parts;
     const auto add = [&](const char* format, auto... values) {
-        char text[96];
-        std::snprintf(text, sizeof text, format, values...);
-        parts.emplace_back(text);
+        parts.push_back(formatted(format, values...));
     };
     add("%s", panel.bench.scene().name.c_str());
     add("%d \xc3\x97 %d", size.x, size.y);
-    parts.push_back(titleOf(active));
-    if (active.settings.filter != Filter::None)
-        add("\xce\xb1 %.3g", double(active.settings.denoiser.temporal.alpha));
+    parts.push_back(titleOf(state.panes, state.panes.active));
     if (state.time.last) {
         add("frame %u", state.time.past.empty() ? 0u : state.time.past.back().frame);
         add("%.2f s", state.time.last->seconds);
     }
-    add("%.1f ms", panel.bench.timings().frame());
+    parts.push_back(timeText(panel.bench.timings()));
     if (stats.invalidValues)
         add("%u INVALID VALUES", stats.invalidValues);
     if (stats.gradientSamples)
@@ -75,10 +70,7 @@ std::vector<std::string> statusParts(const PanelContext& panel) {
 }
 
 std::string numberText(double value, std::string_view unit) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.3g%s%.*s", value, unit.empty() ? "" : " ", int(unit.size()),
-                  unit.data());
-    return text;
+    return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 ImU32 packed(glm::vec3 c) {

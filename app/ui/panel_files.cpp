@@ -70,38 +70,18 @@ void openRows(const PanelContext& panel) {
 }
 
 void saveButtons(ViewState& state) {
-    struct Row {
-        const char *name, *help;
-        Action action;
-    };
-    const Row rows[] = {
+    constexpr ActionButton pictures[] = {
         {"Save picture", "F12 or Ctrl S. What the panes show, pixel for pixel, as PNG.",
          Action::SavePicture},
         {"Save window", "Shift F12. The whole window as PNG.", Action::SaveWindow},
         {"All images", "Ctrl F12. Every image of this frame of the active pane, as numbers.",
          Action::SaveImageFiles}};
-    const float gap = 0.3f * em();
-    const float width = shareOf(3, gap);
-    for (const Row& row : rows) {
-        if (&row != rows)
-            ImGui::SameLine(0.0f, gap);
-        if (litButton(row.name, false, width))
-            perform(state, {row.action});
-        tooltip(row.help);
-    }
-}
-
-void curveButtons(ViewState& state) {
-    const float gap = 0.3f * em();
+    actionRow(state, pictures, ImGui::GetContentRegionAvail().x);
     rowLabel("Curves");
-    const float width = shareOf(2, gap);
-    if (litButton("Copy", false, width))
-        perform(state, {Action::CopyCurves});
-    tooltip("Ctrl C. What the probes read, as comma-separated values.");
-    ImGui::SameLine(0.0f, gap);
-    if (litButton("Save##curves", false, width))
-        perform(state, {Action::SaveCurves});
-    tooltip("Ctrl E. The same as a file.");
+    constexpr ActionButton curves[] = {
+        {"Copy", "Ctrl C. What the probes read, as comma-separated values.", Action::CopyCurves},
+        {"Save##curves", "Ctrl E. The same as a file.", Action::SaveCurves}};
+    actionRow(state, curves, ImGui::GetContentRegionAvail().x);
 }
 
 void recordRow(const PanelContext& panel) {
@@ -143,7 +123,6 @@ void panelFiles(const PanelContext& panel) {
         return;
     openRows(panel);
     saveButtons(panel.state);
-    curveButtons(panel.state);
     recordRow(panel);
     ImGui::PushFont(panel.fonts.small);
     dimWrapped("What is saved goes into the folder in which the program was started; a message "

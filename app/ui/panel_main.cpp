@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 namespace afterglow {
@@ -31,27 +31,16 @@ float scrollbar() {
 
 // What is open beside the pictures.
 void panelSwitches(ViewState& state) {
-    struct Row {
-        const char *name, *help;
-        bool open;
-        Action action;
-    };
-    const Row rows[] = {{"Inspector", "F2. All that is known of one pixel.", state.showInspector,
-                         Action::ToggleInspector},
-                        {"Passes", "F3. What each pass of a frame makes, and how long it takes.",
-                         state.showPasses, Action::TogglePasses},
-                        {"Curves", "F4. What the probes read, frame by frame.", state.showCurves,
-                         Action::ToggleCurves},
-                        {"Timeline", "F8. What happened in the last frames.", state.showStrip,
-                         Action::ToggleStrip}};
-    const float gap = 0.3f * em(), width = shareOf(4, gap) - 0.25f * scrollbar();
-    for (const Row& row : rows) {
-        if (&row != rows)
-            ImGui::SameLine(0.0f, gap);
-        if (quietButton(row.name, row.open, width))
-            perform(state, {row.action});
-        tooltip(row.help);
-    }
+    const ActionButton buttons[] = {{"Inspector", "F2. All that is known of one pixel.",
+                                     Action::ToggleInspector, state.showInspector},
+                                    {"Passes",
+                                     "F3. What each pass of a frame makes, and how long it takes.",
+                                     Action::TogglePasses, state.showPasses},
+                                    {"Curves", "F4. What the probes read, frame by frame.",
+                                     Action::ToggleCurves, state.showCurves},
+                                    {"Timeline", "F8. What happened in the last frames.",
+                                     Action::ToggleStrip, state.showStrip}};
+    actionRow(state, buttons, ImGui::GetContentRegionAvail().x - scrollbar());
 }
 
 void drawLayout(PaneLayout layout, ImVec2 center, ImU32 tint) {
@@ -104,8 +93,10 @@ void layoutButtons(Panes& panes) {
         if (i > 0)
             ImGui::SameLine(0.0f, gap);
         ImGui::PushID(int(i));
+        ImGui::BeginDisabled(!offersLayout(panes, layout));
         if (quietButton("##layout", panes.layout == layout, width))
             chooseLayout(panes, layout);
+        ImGui::EndDisabled();
         ImGui::PopID();
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         drawLayout(layout, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)},
@@ -113,10 +104,6 @@ void layoutButtons(Panes& panes) {
         tooltip(std::string(helpOf(layout)) +
                 ".\nT and Shift T go through the layouts. All panes see the same noise.");
     }
-}
-
-bool showsPair(PaneLayout layout) {
-    return layout != PaneLayout::Single && layout != PaneLayout::FourUp;
 }
 
 // "left" and "right", or what is subtracted from what.
@@ -160,14 +147,13 @@ void paneTab(const PanelContext& panel, std::size_t pane, float width) {
     const char* const role = roleOf(panes, pane);
     draw->AddText({end.x - pad - ImGui::CalcTextSize(role).x, top + 0.1f * em()},
                   packed(color::kDim), role);
-    const std::string title = clipped(titleOf(panes.all[pane]), size.x - 2.0f * pad);
+    const std::string title = clipped(titleOf(panes, pane), size.x - 2.0f * pad);
     draw->AddText({at.x + pad, top + 1.35f * em()}, packed(shown ? color::kText : color::kDim),
                   title.c_str());
     ImGui::PopFont();
 
-    const Pane& told = panes.all[pane];
-    const std::string parameters = parametersOf(told);
-    tooltip("Pane " + std::string(letter) + ": " + titleOf(told) +
+    const std::string parameters = parametersOf(panes.all[pane]);
+    tooltip("Pane " + std::string(letter) + ": " + titleOf(panes, pane) +
             (parameters.empty() ? "" : "\n" + parameters) +
             (shown ? "" : "\nA click shows it in place of the active pane.") +
             "\nG and Shift G go through the panes. Keys and this panel speak to the active one.");
@@ -234,31 +220,26 @@ void panelHeader(const PanelContext& panel) {
     ImGui::SameLine();
     const float help = 2.4f * em(), tour = 3.4f * em(), gap = 0.3f * em();
     ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - scrollbar() - help - gap - tour);
-    if (litButton("Tour", state.tourStop.has_value(), tour))
-        perform(state, {Action::ToggleTour});
-    tooltip("F6. What the filters do and where they fail, in a few stops.");
+    actionButton(state,
+                 {"Tour", "F6. What the filters do and where they fail, in a few stops.",
+                  Action::ToggleTour, state.tourStop.has_value()},
+                 tour);
     ImGui::SameLine(0.0f, gap);
-    if (litButton("F1", state.showHelp, help))
-        perform(state, {Action::ToggleHelp});
-    tooltip("All keys");
+    actionButton(state, {"F1", "All keys", Action::ToggleHelp, state.showHelp}, help);
 
     const SceneStats& stats = panel.bench.renderer().sceneStats();
     const std::size_t lights = state.lights.size();
-    const std::string facts = panel.bench.scene().name + ": " + grouped(stats.triangles) +
-                              " triangles, " + std::to_string(lights) +
-                              (lights == 1 ? " light" : " lights");
+    const std::string facts = fmt::format("{}: {} triangles, {} light{}", panel.bench.scene().name,
+                                          grouped(stats.triangles), lights, lights == 1 ? "" : "s");
     ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
     clippedText(facts, ImGui::GetContentRegionAvail().x);
     ImGui::PopStyleColor();
     const GlInfo& gl = panel.bench.gl();
-    char more[512];
-    std::snprintf(more, sizeof more,
-                  "%s\n%zu instances\n%zu nodes of the bounding volume hierarchy, built in %.1f "
-                  "ms\n%.1f MiB of images\n%s\nOpenGL %s",
-                  state.sceneName.c_str(), stats.instances, stats.bvhNodes,
-                  stats.bvhBuildMilliseconds, double(panel.bench.imageBytes()) / (1024.0 * 1024.0),
-                  gl.renderer.c_str(), gl.version.c_str());
-    tooltip(more);
+    tooltip(
+        fmt::format("{}\n{} instances\n{} nodes of the bounding volume hierarchy, built in "
+                    "{:.1f} ms\n{:.1f} MiB of images\n{}\nOpenGL {}",
+                    state.sceneName, stats.instances, stats.bvhNodes, stats.bvhBuildMilliseconds,
+                    double(panel.bench.imageBytes()) / (1024.0 * 1024.0), gl.renderer, gl.version));
     panelSwitches(state);
     ImGui::Dummy({0.0f, 0.1f * em()});
 }
@@ -268,8 +249,8 @@ void panelFilter(const PanelContext& panel) {
         return;
     ViewState& state = panel.state;
     layoutButtons(state.panes);
-    const float gap = 0.3f * em(), width = shareOf(int(kFilterStates), gap);
-    for (std::size_t pane = 0; pane < kFilterStates; ++pane) {
+    const float gap = 0.3f * em(), width = shareOf(int(state.panes.count), gap);
+    for (std::size_t pane = 0; pane < state.panes.count; ++pane) {
         if (pane > 0)
             ImGui::SameLine(0.0f, gap);
         ImGui::PushID(int(pane));

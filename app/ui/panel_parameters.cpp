@@ -44,9 +44,9 @@ void copyRow(ViewState& state) {
     Panes& panes = state.panes;
     rowLabel("Copy to");
     const float gap = 0.25f * em();
-    const float width = shareOf(int(kFilterStates) - 1, gap);
+    const float width = shareOf(int(panes.count) - 1, gap);
     bool first = true;
-    for (std::size_t pane = 0; pane < kFilterStates; ++pane) {
+    for (std::size_t pane = 0; pane < panes.count; ++pane) {
         if (pane == panes.active)
             continue;
         if (!first)
@@ -67,11 +67,12 @@ void copyRow(ViewState& state) {
 void panelParameters(const PanelContext& panel) {
     ViewState& state = panel.state;
     Panes& panes = state.panes;
-    const Pane& active = panes.all[panes.active];
-    const std::string note = std::string(1, letterOf(panes.active)) + "  " + titleOf(active);
+    const std::string note =
+        std::string(1, letterOf(panes.active)) + "  " + titleOf(panes, panes.active);
     if (!section(panel.fonts, "Parameters", false, note, color::kPanes[panes.active]))
         return;
-    copyRow(state);
+    if (panes.count > 1)
+        copyRow(state);
     const Settings settings = settingsOf(panes, panes.active);
     for (const std::string_view group : groups()) {
         const int changed = changedIn(settings, group);

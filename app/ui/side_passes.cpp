@@ -210,7 +210,7 @@ std::string whatIsTimed(bool software) {
 void totals(const PanelContext& panel) {
     const PassTimings& timings = panel.bench.timings();
     ImGui::PushFont(panel.fonts.large);
-    ImGui::TextUnformatted(formatted("%.1f ms", timings.frame()).c_str());
+    ImGui::TextUnformatted(timeText(timings).c_str());
     ImGui::PopFont();
     ImGui::PushFont(panel.fonts.small);
     const bool software = panel.bench.gl().softwareRasterizer;

@@ -157,6 +157,23 @@ bool quietButton(const char* label, bool lit, float width) {
                          lit ? color::kOnFill : color::kText);
 }
 
+void actionButton(ViewState& state, const ActionButton& button, float width) {
+    ImGui::BeginDisabled(!button.can);
+    if (quietButton(button.label, button.lit, width))
+        perform(state, {button.action});
+    ImGui::EndDisabled();
+    tooltip(button.help);
+}
+
+void actionRow(ViewState& state, std::span<const ActionButton> buttons, float width) {
+    const float gap = 0.3f * em(), count = float(buttons.size());
+    for (const ActionButton& button : buttons) {
+        if (&button != buttons.data())
+            ImGui::SameLine(0.0f, gap);
+        actionButton(state, button, (width - gap * (count - 1.0f)) / count);
+    }
+}
+
 std::optional<int> segments(const char* id, std::span<const char* const> names, int lit) {
     const float gap = 0.25f * em();
     const float width = shareOf(int(names.size()), gap);

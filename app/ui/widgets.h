@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/ui/theme.h"
-#include "app/workbench/panes.h"
+#include "app/workbench/view_state.h"
 
 #include <optional>
 #include <span>
@@ -35,6 +35,16 @@ bool litButton(const char* label, bool lit, float width, ImVec4 tint = color::kL
 
 /// The same for what matters less: its ground stays calm.
 bool quietButton(const char* label, bool lit, float width);
+
+/// A button that does what a key does.
+struct ActionButton {
+    const char *label, *help;
+    Action action;
+    bool lit = false, can = true;
+};
+void actionButton(ViewState& state, const ActionButton& button, float width);
+/// The same beside each other, each as wide as its share of `width`; calm as a quietButton().
+void actionRow(ViewState& state, std::span<const ActionButton> buttons, float width);
 
 /// Choices beside each other over the width that is left, of which one is lit. What was pressed.
 std::optional<int> segments(const char* id, std::span<const char* const> names, int lit);

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace afterglow {
 namespace {
 
@@ -78,7 +80,7 @@ void Viewer::run() {
         }
         window_.swap();
         rememberWindow();
-        tellTitle();
+        updateTitle();
     }
 }
 
@@ -137,6 +139,7 @@ void Viewer::flyCamera(const WindowInput& input, double seconds) {
 void Viewer::pointAt(const WindowInput& input) {
     PointerInput hand{.position = window_.cursor(),
                       .adds = window_.isDown(Key::Shift),
+                      .exact = window_.isDown(Key::Control),
                       .onPicture = !ui_.coversPictures(workbench_.state) && !looking_,
                       .reach = kDividerReach * window_.contentScale()};
     const auto move = [&](glm::vec2 position, bool pressed, bool released) {
@@ -162,23 +165,8 @@ void Viewer::serveRequests() {
     if (const auto copied = workbench_.takeCopied())
         window_.setClipboard(*copied);
     if (const auto stop = std::exchange(state.wanted.tourStop, {}))
-        enterTourStop(*stop);
-}
-
-void Viewer::enterTourStop(std::size_t index) {
-    ViewState& state = workbench_.state;
-    const std::vector<TourStop>& tour = tourStops();
-    if (index >= tour.size()) {
-        state.tourStop.reset();
-        state.preferences.tourDone = true;
-        return;
-    }
-    if (state.sceneName != tour[index].scene || !workbench_.playsScene())
-        workbench_.open(tour[index].scene);
-    const glm::ivec2 view = layoutOf(window_.framebufferSize(), ui_.wishes(state)).view.size;
-    const glm::ivec2 image = renderSize(state.resolution, view);
-    enterStop(state, tour[index], glm::max(image, glm::ivec2(1)));
-    state.tourStop = index;
+        workbench_.enterTourStop(*stop,
+                                 layoutOf(window_.framebufferSize(), ui_.wishes(state)).view.size);
 }
 
 void Viewer::drawWindow(glm::ivec2 framebuffer, const Layout& layout) {
@@ -200,15 +188,13 @@ void Viewer::rememberWindow() {
             glm::clamp(window_.sizeInUnits(), glm::ivec2(kLeastWindow), glm::ivec2(kMostWindow));
 }
 
-void Viewer::tellTitle() {
+void Viewer::updateTitle() {
     if (secondsSince(titled_) < kTitleSeconds)
         return;
     titled_ = Clock::now();
     const glm::ivec2 size = workbench_.imageSize();
-    char text[64];
-    std::snprintf(text, sizeof text, "  %d x %d  %.1f ms", size.x, size.y,
-                  workbench_.timings().frame());
-    const std::string title = "Afterglow: " + workbench_.scene().name + text;
+    const std::string title = fmt::format("Afterglow: {}  {} x {}  {}", workbench_.scene().name,
+                                          size.x, size.y, timeText(workbench_.timings()));
     if (title != title_)
         window_.setTitle(title_ = title);
 }

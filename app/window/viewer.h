@@ -6,7 +6,6 @@
 #include "app/window/view.h"
 #include "app/window/window.h"
 #include "app/workbench/pointer.h"
-#include "app/workbench/tour.h"
 #include "app/workbench/workbench.h"
 
 #include <chrono>
@@ -30,9 +29,8 @@ private:
     void flyCamera(const WindowInput& input, double seconds);
     void pointAt(const WindowInput& input);
     void serveRequests();
-    void enterTourStop(std::size_t index);
     void drawWindow(glm::ivec2 framebuffer, const Layout& layout);
-    void tellTitle();
+    void updateTitle();
     void rememberWindow();
     bool isLastFrame() const;
     void measureUiCost();

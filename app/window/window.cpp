@@ -25,24 +25,14 @@ constexpr std::pair<Key, int> kNamedKeys[] = {
     {Key::Shift, GLFW_KEY_RIGHT_SHIFT},
     {Key::Control, GLFW_KEY_LEFT_CONTROL},
     {Key::Control, GLFW_KEY_RIGHT_CONTROL},
-    {Key::F1, GLFW_KEY_F1},
-    {Key::F2, GLFW_KEY_F2},
-    {Key::F3, GLFW_KEY_F3},
-    {Key::F4, GLFW_KEY_F4},
-    {Key::F5, GLFW_KEY_F5},
-    {Key::F6, GLFW_KEY_F6},
-    {Key::F7, GLFW_KEY_F7},
-    {Key::F8, GLFW_KEY_F8},
-    {Key::F9, GLFW_KEY_F9},
-    {Key::F10, GLFW_KEY_F10},
-    {Key::F11, GLFW_KEY_F11},
-    {Key::F12, GLFW_KEY_F12},
 };
 
 Key keyOfGlfw(int code) {
     for (const auto& [key, known] : kNamedKeys)
         if (known == code)
             return key;
+    if (code >= GLFW_KEY_F1 && code <= GLFW_KEY_F12)
+        return Key(int(Key::F1) + code - GLFW_KEY_F1);
     return code >= GLFW_KEY_SPACE && code < GLFW_KEY_ESCAPE ? Key(code) : Key::Unknown; // ASCII
 }
 

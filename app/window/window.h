@@ -47,7 +47,7 @@ public:
     WindowInput wait(double seconds); ///< returns when something happens, or after that time
     void swap();                      ///< shows what was drawn
 
-    bool isDown(Key key) const;
+    bool isDown(Key key) const; ///< of keys that are held: all but the function keys
     bool closeWanted() const;
     bool isMinimized() const;
     glm::ivec2 framebufferSize() const; ///< pixels; 0 while minimized on some systems

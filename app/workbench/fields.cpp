@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <type_traits>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 
@@ -42,9 +43,21 @@ void resetField(Settings& settings, const Field& field) {
 std::string valueText(const Field& field, double value) {
     if (!field.choices.empty())
         return std::string(field.choices[std::size_t(value)]);
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.4g", value);
-    return digits + (field.unit.empty() ? "" : " " + std::string(field.unit));
+    return fmt::format("{:.4g}{}{}", value, field.unit.empty() ? "" : " ", field.unit);
+}
+
+std::string settingsText(const Settings& settings) {
+    std::string text = fmt::format("filter={}", nameOf(settings.filter));
+    for (const Field* field : differingFields(settings, Settings{})) {
+        if (field->group == "display")
+            continue;
+        const double value = fieldValue(settings, *field);
+        // As a float, so that 0.1f is written as 0.1.
+        text += field->choices.empty()
+                    ? fmt::format(" {}={}", field->key, float(value))
+                    : fmt::format(" {}={}", field->key, field->choices[std::size_t(value)]);
+    }
+    return text;
 }
 
 std::vector<const Field*> differingFields(const Settings& a, const Settings& b) {

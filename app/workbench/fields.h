@@ -21,6 +21,10 @@ void resetField(Settings& settings, const Field& field);
 /// "0.2", "128", "power".
 std::string valueText(const Field& field, double value);
 
+/// "filter=svgf alpha=0.1": the filter, and what is not at its default, as setField() takes it. The
+/// display is left out: it changes no measured number.
+std::string settingsText(const Settings& settings);
+
 /// Those whose values differ, in the order of the table. The filter is not among them.
 std::vector<const Field*> differingFields(const Settings& a, const Settings& b);
 

@@ -44,7 +44,7 @@ void Instruments::measure(Renderer& renderer, const ViewState& state, std::uint3
         if (const auto& placed = state.probes[i])
             frame_->probes[i] = rescaled(placed->probe, placed->image, renderer.size());
     for (const std::size_t pane : shownPanes(state.panes)) {
-        frame_->panes[pane] = titleOf(state.panes.all[pane]);
+        frame_->panes[pane] = recordOf(state.panes, pane);
         measureProbes(renderer, state, pane);
         if (state.showInspector)
             countReasons(renderer, state, pane);

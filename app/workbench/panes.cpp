@@ -2,12 +2,13 @@
 #include "app/workbench/panes.h"
 
 #include "app/workbench/fields.h"
-
 #include "renderer/base/names.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <numeric>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
@@ -15,14 +16,14 @@ namespace {
 constexpr std::array<std::string_view, kPaneLayouts> kLayoutNames{"single", "wipe", "two-up",
                                                                   "four-up", "difference"};
 
-bool showsPair(PaneLayout layout) {
-    return layout == PaneLayout::Wipe || layout == PaneLayout::TwoUp ||
-           layout == PaneLayout::Difference;
-}
-
 std::size_t wrapped(std::size_t index, int step, std::size_t count) {
     const int n = int(count);
     return std::size_t((((int(index) + step) % n) + n) % n);
+}
+
+// A field's name beside its value.
+std::string_view shortName(const Field& field) {
+    return field.key == "alpha" ? "\xce\xb1" : field.key;
 }
 
 // The active pane is one of those shown.
@@ -32,6 +33,10 @@ void keepActiveShown(Panes& panes) {
 }
 
 } // namespace
+
+bool showsPair(PaneLayout layout) {
+    return layout != PaneLayout::Single && layout != PaneLayout::FourUp;
+}
 
 std::string_view nameOf(PaneLayout layout) {
     return kLayoutNames[std::size_t(layout)];
@@ -61,7 +66,9 @@ std::vector<std::size_t> shownPanes(const Panes& panes) {
         return {panes.active};
     if (showsPair(panes.layout))
         return {panes.pair[0], panes.pair[1]};
-    return {0, 1, 2, 3};
+    std::vector<std::size_t> all(panes.count);
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    return all;
 }
 
 bool isShown(const Panes& panes, std::size_t pane) {
@@ -88,7 +95,13 @@ std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after) {
     return changed;
 }
 
+bool offersLayout(const Panes& panes, PaneLayout layout) {
+    return layout == PaneLayout::Single || panes.count > (layout == PaneLayout::FourUp ? 2 : 1);
+}
+
 void chooseLayout(Panes& panes, PaneLayout layout) {
+    if (!offersLayout(panes, layout))
+        return;
     // What was looked at alone stays in view.
     if (showsPair(layout) && panes.layout == PaneLayout::Single && panes.active != panes.pair[0] &&
         panes.active != panes.pair[1])
@@ -98,11 +111,15 @@ void chooseLayout(Panes& panes, PaneLayout layout) {
 }
 
 void cycleLayout(Panes& panes, int step) {
-    chooseLayout(panes, PaneLayout(wrapped(std::size_t(panes.layout), step, kPaneLayouts)));
+    std::size_t next = std::size_t(panes.layout);
+    do
+        next = wrapped(next, step, kPaneLayouts);
+    while (!offersLayout(panes, PaneLayout(next)));
+    chooseLayout(panes, PaneLayout(next));
 }
 
 void choosePane(Panes& panes, std::size_t pane) {
-    if (pane >= panes.all.size())
+    if (pane >= panes.count)
         return;
     if (showsPair(panes.layout) && !isShown(panes, pane))
         panes.pair[panes.active == panes.pair[1] ? 1 : 0] = pane;
@@ -111,7 +128,7 @@ void choosePane(Panes& panes, std::size_t pane) {
 
 void cyclePane(Panes& panes, int step) {
     if (panes.layout == PaneLayout::Single)
-        return choosePane(panes, wrapped(panes.active, step, panes.all.size()));
+        return choosePane(panes, wrapped(panes.active, step, panes.count));
     const auto shown = shownPanes(panes);
     const auto place = std::size_t(std::ranges::find(shown, panes.active) - shown.begin());
     panes.active = shown[wrapped(place, step, shown.size())];
@@ -139,20 +156,47 @@ void setFilter(Panes& panes, std::size_t pane, Filter filter) {
 }
 
 void setPane(Panes& panes, std::size_t pane, std::string title, const FilterSettings& settings) {
-    panes.all.at(pane) = {std::move(title), settings};
+    panes.all.at(pane) = {std::move(title), settings, settings};
 }
 
 std::string titleOf(const Pane& pane) {
     return pane.title.empty() ? std::string(titleOf(pane.settings.filter)) : pane.title;
 }
 
+std::string titleOf(const Panes& panes, std::size_t pane) {
+    constexpr std::size_t kMostTold = 2;
+    const Pane& self = panes.all.at(pane);
+    const std::string title = titleOf(self);
+    std::vector<const Field*> differing;
+    for (std::size_t i = 0; i < panes.count; ++i)
+        if (titleOf(panes.all[i]) == title)
+            for (const Field* field :
+                 differingFields(settingsOf(panes, i), settingsOf(panes, pane)))
+                if (std::ranges::find(differing, field) == differing.end())
+                    differing.push_back(field);
+    if (differing.empty())
+        differing = differingFields({{}, self.title.empty() ? FilterSettings{} : self.preset},
+                                    {{}, self.settings});
+    std::string text = title;
+    for (std::size_t i = 0; i < std::min(differing.size(), kMostTold); ++i) {
+        const Field& field = *differing[i];
+        text += i > 0 || !self.title.empty() ? ", " : " ";
+        if (!text.ends_with(fmt::format("{} ", shortName(field)))) // "Fixed alpha" has it
+            text += fmt::format("{} ", shortName(field));
+        text += valueText(field, fieldValue(settingsOf(panes, pane), field));
+    }
+    return text + (differing.size() > kMostTold ? ", ..." : "");
+}
+
+ProbePane recordOf(const Panes& panes, std::size_t pane) {
+    return {titleOf(panes, pane), settingsText(settingsOf(panes, pane))};
+}
+
 std::string parametersOf(const Pane& pane) {
     if (pane.settings.filter == Filter::None)
         return {};
-    char alpha[32];
-    std::snprintf(alpha, sizeof alpha, "\xce\xb1 %.3g",
-                  double(pane.settings.denoiser.temporal.alpha));
-    std::string text = alpha;
+    std::string text =
+        fmt::format("\xce\xb1 {:.3g}", double(pane.settings.denoiser.temporal.alpha));
     const Settings settings{{}, pane.settings};
     for (const Field* field : differingFields(settings, Settings{}))
         if (field->key != "alpha")
@@ -181,7 +225,7 @@ std::vector<PanePlace> placesOf(const Panes& panes, const Rect& view, glm::ivec2
     case PaneLayout::TwoUp: return {part(first, {0, 0}, {2, 1}), part(second, {1, 0}, {2, 1})};
     case PaneLayout::FourUp: {
         std::vector<PanePlace> places;
-        for (int i = 0; i < 4; ++i)
+        for (int i = 0; i < int(panes.count); ++i)
             places.push_back(part(std::size_t(i), {i % 2, i / 2}, {2, 2}));
         return places;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/measure/probe_log.h"
 #include "app/workbench/layout.h"
 #include "renderer/pipeline/settings.h"
 #include "renderer/resources/render_targets.h"
@@ -18,11 +19,12 @@ enum class PaneLayout {
     Single,     ///< the active one alone
     Wipe,       ///< two, the same picture on both sides of a divider
     TwoUp,      ///< two, beside each other
-    FourUp,     ///< all
+    FourUp,     ///< all that are in use
     Difference, ///< the first of the pair minus the second
 };
 inline constexpr std::size_t kPaneLayouts = 5;
 std::string_view nameOf(PaneLayout layout); ///< "single", "wipe", "two-up", "four-up", "difference"
+bool showsPair(PaneLayout layout);          ///< of panes: a left and a right one, or a difference
 PaneLayout layoutFromName(std::string_view name); ///< UsageError names the nearest known
 
 /// A filter with its parameters, as one of four that can be compared. Each has its own histories:
@@ -30,11 +32,13 @@ PaneLayout layoutFromName(std::string_view name); ///< UsageError names the near
 struct Pane {
     std::string title; ///< of the preset that it was set to; empty: that of the filter
     FilterSettings settings;
+    FilterSettings preset; ///< those that the title was given to
 };
 
 struct Panes {
     FrameSettings frame; ///< of all
     std::array<Pane, kFilterStates> all;
+    std::size_t count = kFilterStates; ///< the first so many are in use, at least one
     PaneLayout layout = PaneLayout::Single;
     std::size_t active = 0; ///< what keys and panels speak to; always a shown one
     std::array<std::size_t, 2> pair{0,
@@ -55,7 +59,9 @@ Settings settingsOf(const Panes& panes, std::size_t pane);
 bool carriesSamples(const Panes& panes);
 std::vector<std::size_t> changedPanes(const Panes& before, const Panes& after);
 
-void chooseLayout(Panes& panes, PaneLayout layout);
+/// Returns whether there are as many panes in use as a layout needs.
+bool offersLayout(const Panes& panes, PaneLayout layout);
+void chooseLayout(Panes& panes, PaneLayout layout); ///< nothing where it is not offered
 void cycleLayout(Panes& panes, int step);
 /// Makes it the active one. Where it is not shown it takes the place of the one that was active.
 void choosePane(Panes& panes, std::size_t pane);
@@ -69,7 +75,13 @@ void setField(Panes& panes, const Field& field, double value);
 void setFilter(Panes& panes, std::size_t pane, Filter filter);
 void setPane(Panes& panes, std::size_t pane, std::string title, const FilterSettings& settings);
 
+/// "SVGF", or the title of the preset.
 std::string titleOf(const Pane& pane);
+/// The same with what tells the pane from others of its title, or else with what was changed in it:
+/// "Fixed alpha 0.1".
+std::string titleOf(const Panes& panes, std::size_t pane);
+/// The pane as the log of the probes has it: its title and all that its picture is made with.
+ProbePane recordOf(const Panes& panes, std::size_t pane);
 /// The parameters that are not at their defaults: "alpha 0.1, history law frames"; never empty for
 /// a filter that accumulates, since alpha is always told.
 std::string parametersOf(const Pane& pane);

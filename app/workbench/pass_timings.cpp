@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
+
 namespace afterglow {
 namespace {
 
@@ -20,27 +22,18 @@ void push(std::vector<float>& ring, double milliseconds) {
 
 void PassTimings::addPasses(std::span<const Row> passes) {
     std::vector<Row> next(passes.begin(), passes.end());
-    std::vector<int> seen(next.size(), 1);
     std::vector<std::vector<float>> rings(next.size());
     for (std::size_t i = 0; i < next.size(); ++i) {
-        const auto before = std::ranges::find(passes_, next[i].name, &Row::name);
         const double newest = next[i].milliseconds;
-        if (before == passes_.end()) {
-            push(rings[i], newest);
-            continue;
+        const auto before = std::ranges::find(passes_, next[i].name, &Row::name);
+        if (before != passes_.end()) {
+            rings[i] = std::move(rings_[std::size_t(before - passes_.begin())]);
+            const double weight = std::max(kNewest, 1.0 / double(rings[i].size() + 1));
+            next[i].milliseconds = before->milliseconds + weight * (newest - before->milliseconds);
         }
-        const auto place = std::size_t(before - passes_.begin());
-        seen[i] = seen_[place] + 1;
-        // The first time may include compiling a shader.
-        if (seen[i] > 2)
-            rings[i] = std::move(rings_[place]);
         push(rings[i], newest);
-        const double weight = std::max(kNewest, 1.0 / double(seen[i] - 1));
-        next[i].milliseconds =
-            before->milliseconds + weight * (next[i].milliseconds - before->milliseconds);
     }
     passes_ = std::move(next);
-    seen_ = std::move(seen);
     rings_ = std::move(rings);
 }
 
@@ -60,6 +53,10 @@ double PassTimings::frame() const {
 double PassTimings::passTotal() const {
     return std::accumulate(passes_.begin(), passes_.end(), 0.0,
                            [](double sum, const Row& row) { return sum + row.milliseconds; });
+}
+
+std::string timeText(const PassTimings& timings) {
+    return timings.frames().empty() ? "compiling" : fmt::format("{:.1f} ms", timings.frame());
 }
 
 } // namespace afterglow

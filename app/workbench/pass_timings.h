@@ -9,7 +9,7 @@
 namespace afterglow {
 
 /// Milliseconds that the device worked for passes and for whole frames, smoothed so that they can
-/// be read. The first time of a pass may include compiling its shader and is soon forgotten.
+/// be read. Frames in which programs were compiled are not to be added.
 class PassTimings {
 public:
     struct Row {
@@ -31,9 +31,11 @@ public:
 
 private:
     std::vector<Row> passes_;
-    std::vector<int> seen_;                 ///< frames in a row that each of the passes was in
     std::vector<std::vector<float>> rings_; ///< by pass
     std::vector<float> ring_;
 };
+
+/// "12.3 ms"; "compiling" before the first frame that is known.
+std::string timeText(const PassTimings& timings);
 
 } // namespace afterglow

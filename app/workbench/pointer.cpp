@@ -42,14 +42,19 @@ void movePointer(Pointer& pointer, ViewState& state, const PointerInput& input,
             choosePane(state.panes, under->pane);
             pointer = {.holds = Pointer::Holds::Probe,
                        .pane = under->pane,
+                       .start = input.position,
                        .corner = under->pixel,
                        .opposite = under->pixel,
-                       .probe = input.adds ? nextProbe(state) : state.activeProbe};
+                       .probe = input.adds ? nextProbe(state) : state.activeProbe,
+                       .exact = input.exact};
         }
     }
     if (pointer.holds == Pointer::Holds::Divider)
         state.panes.divider = dividerAt(places, input.position);
-    if (pointer.holds == Pointer::Holds::Probe && hasImage)
+    // A hand that trembles drags no box.
+    if (pointer.holds == Pointer::Holds::Probe && hasImage &&
+        (pointer.opposite != pointer.corner ||
+         glm::distance(pointer.start, input.position) > 0.5f * input.reach))
         pointer.opposite =
             pixelIn(places, pointer.pane, input.position, image).value_or(pointer.opposite);
     pointer.onDivider = pointer.holds == Pointer::Holds::Divider ||
@@ -64,12 +69,14 @@ void movePointer(Pointer& pointer, ViewState& state, const PointerInput& input,
 std::optional<Probe> draggedProbe(const Pointer& pointer, glm::ivec2 image) {
     if (pointer.holds != Pointer::Holds::Probe || image.x <= 0 || image.y <= 0)
         return {};
+    if (pointer.corner == pointer.opposite && !pointer.exact)
+        return probeAround(pointer.corner, image);
     return probeBetween(pointer.corner, pointer.opposite, image);
 }
 
 void probeAtMouse(ViewState& state, glm::ivec2 image) {
     if (state.hovered && image.x > 0 && image.y > 0)
-        setProbe(state, state.activeProbe, probeAt(state.hovered->pixel, image), image);
+        setProbe(state, state.activeProbe, probeAround(state.hovered->pixel, image), image);
 }
 
 } // namespace afterglow

@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 namespace afterglow {
 namespace {
@@ -233,6 +234,10 @@ void toggleFreeze(ViewState& state) {
 }
 
 void stopTake(ViewState& state) {
+    if (!state.experiment.empty()) {
+        state.wanted.leaveExperiment = true;
+        return;
+    }
     if (const auto last = stopPlaying(state.time))
         follow(state, *last);
 }
@@ -303,9 +308,7 @@ std::optional<std::size_t> shownAov(const ViewState& state, std::size_t pane) {
 std::filesystem::path freePath(const std::filesystem::path& folder, std::string_view stem,
                                std::string_view ending) {
     for (int number = 1;; ++number) {
-        char digits[16];
-        std::snprintf(digits, sizeof digits, "-%04d", number);
-        const auto path = folder / (std::string(stem) + digits + std::string(ending));
+        const auto path = folder / fmt::format("{}-{:04}{}", stem, number, ending);
         if (!std::filesystem::exists(path))
             return path;
     }

@@ -64,6 +64,7 @@ struct Requests {
     bool probeAtMouse = false; ///< the active probe, on ViewState::hovered
     int passStep = 0;          ///< so many passes of a frame on, or back; one a round
     std::string open;          ///< a scene or an experiment, by name or path; empty: none
+    bool leaveExperiment = false;
     std::optional<std::size_t> tourStop;
 };
 
@@ -74,6 +75,7 @@ struct ViewState {
     Transport time;
 
     std::string sceneName;               ///< as it was asked for: a name or a path
+    std::string experiment;              ///< that is played; empty: none
     std::vector<std::string> lightNames; ///< by slot
     std::vector<glm::vec3> lightColors;  ///< by slot: what they emit, linear
     std::vector<LightState> lights;      ///< by slot
@@ -149,7 +151,8 @@ void show(ViewState& state, Shown::Kind kind, std::size_t index = 0);
 void setProbe(ViewState& state, std::size_t index, const Probe& probe, glm::ivec2 image);
 void clearProbes(ViewState& state);
 void toggleFreeze(ViewState& state); ///< also pauses; leaves images of the truth when it ends
-void stopTake(ViewState& state);     ///< its camera and lights become the person's
+/// Its camera and lights become the person's; an experiment's are left for those of before it.
+void stopTake(ViewState& state);
 void toggleRepeat(ViewState& state);
 void notify(ViewState& state, std::string text, bool isError = false);
 

@@ -51,7 +51,10 @@ bool Workbench::advance(double wallSeconds, glm::ivec2 view) {
         notify(state, message->text, message->isError);
     if (std::exchange(state.wanted.reloadShaders, false) || self.sinceReload > kReloadSeconds) {
         self.sinceReload = 0.0;
-        self.shaderErrors = self.shaders.reload().errors;
+        ShaderLibrary::ReloadReport report = self.shaders.reload();
+        if (report.reloaded > 0)
+            self.compiledFor.clear();
+        self.shaderErrors = std::move(report.errors);
     }
     return renders;
 }
@@ -76,9 +79,13 @@ SceneFrame Workbench::Impl::prepareFrame(glm::ivec2 view) {
         now.reset();
     }
     Transport& time = state.time;
+    if (now && nowSeed != state.seed) // other noise is another run
+        forgetMeasured();
     if (std::exchange(time.resetWanted, false)) {
         renderer.resetHistory();
         now.reset();
+        if (!time.playing && time.last)
+            state.marks.push_back("histories forgotten");
     }
     if (std::exchange(time.restoreWanted, false)) {
         if (checkpoint)
@@ -111,9 +118,13 @@ void Workbench::Impl::render(const SceneFrame& frame) {
     } else {
         capture.clear();
     }
+    ++renderedFrames;
     std::vector<FilterRun> runs;
-    for (const std::size_t pane : shownPanes(state.panes))
+    for (const std::size_t pane : shownPanes(state.panes)) {
         runs.push_back({pane, state.panes.all[pane].settings});
+        if (compiledFor.insert(settingsText(settingsOf(state.panes, pane))).second)
+            lastCompiling = renderedFrames;
+    }
     renderer.render(frame.input(state.seed), state.panes.frame, runs);
     if (listens)
         capture.end();
@@ -136,11 +147,14 @@ void Workbench::Impl::renderFrame(double wallSeconds, glm::ivec2 view) {
 }
 
 // Of the newest frame whose times are known: on a GPU not the last one, and not one in every round.
+// The first frames with settings of their own are left out: drivers compile programs in them.
 void Workbench::Impl::noteTimes() {
     const GpuTimer::FrameTimes& times = renderer.timer().newest();
     if (times.frame == timedFrame)
         return;
     timedFrame = times.frame;
+    if (timedFrame <= lastCompiling)
+        return;
     timings.addFrame(times.milliseconds);
     if (times.scopes.empty())
         return;

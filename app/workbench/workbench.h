@@ -77,7 +77,9 @@ public:
     void open(const std::string& nameOrPath);
     /// Whether a name or path means an experiment: one that is built in, or a .json file.
     static bool isExperiment(const std::string& nameOrPath);
-    bool playsScene() const; ///< and not an experiment
+    /// Opens the scene of a stop of the tour and sets up what it shows; past the last stop the tour
+    /// ends. `view`: as for advance().
+    void enterTourStop(std::size_t index, glm::ivec2 view);
 
     // The clipboard is the window's.
     std::optional<std::string> takeCopied(); ///< text that was asked to be copied, once

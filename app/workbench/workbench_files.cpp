@@ -8,6 +8,7 @@
 #include "app/scenario/presets.h"
 #include "app/scenario/run_plan.h"
 #include "app/scenario/take_experiment.h"
+#include "app/workbench/tour.h"
 #include "app/workbench/workbench_impl.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
@@ -50,6 +51,8 @@ void Workbench::Impl::serveRequests() {
     const auto asked = [](bool& flag) { return std::exchange(flag, false); };
     if (const std::string name = std::exchange(wanted.open, {}); !name.empty())
         owner.open(name);
+    if (asked(wanted.leaveExperiment) && suspended)
+        leaveExperiment();
     if (wanted.passStep != 0) {
         const int step = wanted.passStep > 0 ? 1 : -1;
         wanted.passStep -= step;
@@ -66,7 +69,7 @@ void Workbench::Impl::serveRequests() {
     if (wanted.copyCurves || wanted.saveCurves)
         collect(); // curves are whole
     if (asked(wanted.copyCurves)) {
-        copied = toCsv(log);
+        copied = curvesText();
         notify(state, "The curves of " + std::to_string(log.frames().size()) +
                           " frames are in the clipboard, as CSV");
     }
@@ -136,9 +139,14 @@ void Workbench::Impl::saveImageFiles() {
     notify(state, "Saved " + std::to_string(count) + " images in " + folder.path().string());
 }
 
+std::string Workbench::Impl::curvesText() const {
+    const std::string& scene = state.experiment.empty() ? state.sceneName : state.experiment;
+    return toCsv(log, {scene, nowSeed, renderer.size()});
+}
+
 void Workbench::Impl::saveCurves() {
     const auto path = freePath(folders.output, "afterglow-curves", ".csv");
-    writeFileAtomically(path, toCsv(log));
+    writeFileAtomically(path, curvesText());
     notify(state, "Saved " + path.string());
 }
 
@@ -148,8 +156,8 @@ void Workbench::Impl::saveTake() {
         time.playing ? &time.playing->take : (time.recorded ? &*time.recorded : nullptr);
     if (!take || take->frames.empty())
         throw UsageError("there is no take: I sets the in point, O the out point");
-    if (!experiment.empty())
-        throw UsageError("this take is of the experiment " + experiment +
+    if (!state.experiment.empty())
+        throw UsageError("this take is of the experiment " + state.experiment +
                          ", which is a file already");
     Experiment base;
     const auto path = freePath(folders.output, "afterglow-take", ".json");
@@ -177,7 +185,7 @@ void Workbench::Impl::savePreset(const std::string& name) {
     preset.description = "Saved from pane " + std::string(1, letterOf(state.panes.active));
     preset.source = "own choice";
     presets.save(preset);
-    state.panes.all[state.panes.active].title = preset.title;
+    setPane(state.panes, state.panes.active, preset.title, state.settings());
     notify(state, "Saved as " + (presets.folder() / (name + ".json")).string());
 }
 
@@ -194,44 +202,74 @@ void Workbench::Impl::recordFrames() {
 
 void Workbench::Impl::enter(Scene scene, const std::string& sceneName, const std::string& opened) {
     state.sceneName = state.preferences.lastScene = sceneName;
+    state.experiment.clear();
     if (isFile(opened))
         rememberFile(state.preferences, opened);
     enterScene(state, scene);
+    replaceScene(std::move(scene));
+}
+
+void Workbench::Impl::replaceScene(Scene scene) {
     renderer.setScene(std::move(scene));
-    instruments.drop();
     oracle.end();
     capture.clear();
     checkpoint.reset();
     now.reset();
     before.reset();
+    forgetMeasured();
+}
+
+void Workbench::Impl::forgetMeasured() {
+    instruments.drop();
     log.clear();
     inspection.reset();
-    experiment.clear();
+    reasons = {};
 }
 
 void Workbench::Impl::openExperiment(const std::string& nameOrPath) {
     const Experiment wanted = loadExperiment(nameOrPath);
     StagedRun run = stagedRun(wanted);
     Take take = takeOf(wanted, run);
+    if (state.frozen)
+        toggleFreeze(state);
+    if (!suspended)
+        suspended = {state, renderer.scene()};
     enter(std::move(run.scene), wanted.scene, nameOrPath);
-    experiment = wanted.name;
+    state.experiment = wanted.name;
 
-    setField(state.panes, fieldByKey("signal"), double(wanted.signal));
-    const std::size_t count = std::min(wanted.variants.size(), kFilterStates);
-    for (std::size_t i = 0; i < count; ++i) {
+    Panes& panes = state.panes;
+    panes.count = std::clamp<std::size_t>(wanted.variants.size(), 1, kFilterStates);
+    for (std::size_t i = 0; i < std::min(wanted.variants.size(), panes.count); ++i) {
         const Variant& variant = wanted.variants[i];
-        setPane(state.panes, i, nameOf(variant.filter) == variant.name ? "" : variant.name,
-                settingsOf(variant, wanted.signal));
+        const Settings settings = settingsOf(variant, wanted.signal);
+        if (i == 0) // all panes show one raw signal
+            panes.frame.lighting = settings.lighting;
+        setPane(panes, i, nameOf(variant.filter) == variant.name ? "" : variant.name, settings);
     }
-    state.panes.active = 0;
-    state.panes.pair = {0, 1};
-    chooseLayout(state.panes, layoutFor(count));
+    panes.pair = {0, 1};
+    panes.layout = layoutFor(panes.count);
+    panes.active = 0;
     state.resolution = {.followWindow = false, .scale = 1.0f, .fixed = wanted.size};
     state.seed = wanted.seed;
     state.time.paused = false;
     play(state.time, std::move(take), true);
     notify(state, "Plays the experiment " + wanted.name +
-                      (wanted.variants.size() > count ? ", its first four variants" : ""));
+                      (wanted.variants.size() > panes.count ? ", its first four variants" : ""));
+}
+
+// All that a person can set is as it was, but for preferences; histories start anew.
+void Workbench::Impl::leaveExperiment() {
+    notify(state, "Left the experiment " + state.experiment);
+    Suspended left = *std::exchange(suspended, {});
+    left.state.preferences = std::move(state.preferences);
+    left.state.preferences.lastScene = left.state.sceneName;
+    left.state.notice = std::move(state.notice);
+    left.state.wanted = std::move(state.wanted);
+    state = std::move(left.state);
+    state.time.recording.reset();
+    checkpointLost(state.time);
+    state.time.resetWanted = true;
+    replaceScene(std::move(left.scene));
 }
 
 bool Workbench::isExperiment(const std::string& nameOrPath) {
@@ -241,17 +279,30 @@ bool Workbench::isExperiment(const std::string& nameOrPath) {
     return std::ranges::find(known, nameOrPath, &ExperimentInfo::name) != known.end();
 }
 
-bool Workbench::playsScene() const {
-    return impl_->experiment.empty();
-}
-
 void Workbench::open(const std::string& nameOrPath) {
     impl_->attempt([&] {
         if (isExperiment(nameOrPath))
             return impl_->openExperiment(nameOrPath);
-        impl_->enter(loadScene(nameOrPath), nameOrPath, nameOrPath);
+        Scene scene = loadScene(nameOrPath);
+        if (impl_->suspended)
+            impl_->leaveExperiment();
+        impl_->enter(std::move(scene), nameOrPath, nameOrPath);
         notify(state, "Opened " + nameOrPath);
     });
+}
+
+void Workbench::enterTourStop(std::size_t index, glm::ivec2 view) {
+    const std::vector<TourStop>& tour = tourStops();
+    if (index >= tour.size()) {
+        state.tourStop.reset();
+        state.preferences.tourDone = true;
+        return;
+    }
+    if (state.sceneName != tour[index].scene || !state.experiment.empty())
+        open(tour[index].scene);
+    impl_->forgetMeasured();
+    enterStop(state, tour[index], glm::max(renderSize(state.resolution, view), glm::ivec2(1)));
+    state.tourStop = index;
 }
 
 void Workbench::paste(const std::string& text) {

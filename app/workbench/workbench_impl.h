@@ -8,6 +8,7 @@
 #include "app/workbench/workbench.h"
 
 #include <functional>
+#include <set>
 
 namespace afterglow {
 
@@ -36,7 +37,11 @@ struct Workbench::Impl {
     void fitRange();
     /// `opened`: what was asked for, a scene or an experiment in it.
     void enter(Scene scene, const std::string& sceneName, const std::string& opened);
+    void replaceScene(Scene scene);
+    void forgetMeasured(); ///< curves and inspections, also those on their way
     void openExperiment(const std::string& nameOrPath);
+    void leaveExperiment();
+    std::string curvesText() const;
     Image<glm::u8vec4> composedView();
     /// Does something with files; an Error becomes a notice.
     void attempt(const std::function<void()>& action);
@@ -55,7 +60,10 @@ struct Workbench::Impl {
     FrameRecorder recorder;
 
     PassTimings timings;
-    std::uint64_t timedFrame = 0; ///< of the renderer's timer, that `timings` has last
+    std::uint64_t timedFrame = 0;      ///< of the renderer's timer, whose times were looked at last
+    std::uint64_t renderedFrames = 0;  ///< as the renderer's timer counts them
+    std::uint64_t lastCompiling = 0;   ///< the last of them with settings that were new
+    std::set<std::string> compiledFor; ///< settings of panes that a frame was rendered with
     FrameStats stats;
     double raysPerSecond = 0.0;
     double sinceFrame = 0.0, sinceStats = 0.0, sinceReload = 0.0; ///< seconds
@@ -70,7 +78,11 @@ struct Workbench::Impl {
     bool capturesAll = false;  ///< every pass of the next frame
     std::vector<std::string> shaderErrors;
     std::optional<std::string> copied;
-    std::string experiment; ///< whose frames the take plays; empty: a scene was opened
+    struct Suspended {
+        ViewState state;
+        Scene scene;
+    };
+    std::optional<Suspended> suspended; ///< what was there before the experiment that is played
 };
 
 } // namespace afterglow

@@ -55,7 +55,11 @@ TEST_CASE(
         CAPTURE((lit(20, pane) - end) / step);
         CHECK(((lit(21, pane) - end) / step < 0.1) == (pane == 0));
     }
-    const LiveResponse quick = liveResponse(log, 0, 0), slow = liveResponse(log, 0, 1);
+    const auto settings = [&](std::size_t pane) {
+        return recordOf(bench.state.panes, pane).settings;
+    };
+    const LiveResponse quick = liveResponse(log, 0, 0, settings(0)),
+                       slow = liveResponse(log, 0, 1, settings(1));
     REQUIRE(quick.claimed());
     REQUIRE(slow.claimed());
     CHECK(quick.status == LiveResponse::Status::Settled);
@@ -69,7 +73,8 @@ TEST_CASE(
     bench.round();
     const auto csv = bench.workbench.takeCopied();
     REQUIRE(csv);
-    CHECK(std::ranges::count(*csv, '\n') == 1 + 2 * 72);
+    CHECK(std::ranges::count(*csv, '\n') - std::ranges::count(*csv, '#') == 1 + 2 * 72);
+    CHECK(csv->starts_with("# scene: tiny\n# seed: 0\n# size: 61x37\n"));
     CHECK(csv->find("A-SVGF") != std::string::npos);
     CHECK_FALSE(bench.workbench.takeCopied());
     bench.press('E', true);

@@ -35,6 +35,7 @@ struct LightBench {
     double light = 1.0;
     std::vector<PaneModel> panes;
     std::vector<double> state;
+    std::array<std::string, kPanes> settings;
     std::uint64_t seed = 0;
     bool noisy = false; ///< 0 or twice the light, at even odds, in each pixel
     int pixels = 100;
@@ -66,7 +67,7 @@ struct LightBench {
             now.probes[1] = probeBetween({0, 0}, {pixels - 1, 0}, {4096, 1});
         ProbeSample sample = rawSample(light);
         for (std::size_t i = 0; i < panes.size(); ++i) {
-            now.panes[i] = "filter";
+            now.panes[i] = {"filter", settings[i]};
             state[i] += panes[i].alpha * (sample.rawLit - state[i]);
             sample.lit = panes[i].bias * state[i];
             if (!runs[i])
@@ -88,7 +89,7 @@ struct LightBench {
         step({{name, true, {}}});
     }
     LiveResponse response(std::size_t pane = 0, std::size_t probe = 0) const {
-        return liveResponse(log, probe, pane);
+        return liveResponse(log, probe, pane, settings[pane]);
     }
 };
 

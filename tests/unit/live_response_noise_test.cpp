@@ -102,3 +102,34 @@ TEST_CASE("a single noisy pixel waits until it has frames enough, and then measu
     }
     CHECK(claims >= 90); // a step of 5, with an error of 6 / sqrt(66)
 }
+
+TEST_CASE("a step of a quarter in one pixel is called too noisy, never too small") {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        LightBench bench(PaneModel{.alpha = 0.2});
+        bench.noisy = true;
+        bench.pixels = 1;
+        bench.seed = seed;
+        bench.run(60);
+        bench.change(0.75);
+        for (int n = 0; n < 60; ++n) {
+            const LiveResponse r = bench.response();
+            CAPTURE(n);
+            CHECK(r.status != Status::TooSmall);
+            if (r.status == Status::TooNoisy)
+                CHECK(describe(r) == "key off: one pixel: too noisy");
+            bench.step();
+        }
+        CHECK(bench.response().status == Status::TooNoisy);
+    }
+}
+
+TEST_CASE("a box in which noise hides the step says so, without a word of pixels") {
+    LightBench bench(PaneModel{.alpha = 0.2});
+    bench.noisy = true;
+    bench.pixels = 9;
+    bench.run(60);
+    bench.change(0.9);
+    bench.run(5);
+    CHECK(bench.response().status == Status::TooNoisy);
+    CHECK(statusText(bench.response()) == "too noisy");
+}

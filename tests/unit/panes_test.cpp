@@ -239,6 +239,61 @@ TEST_CASE("a pane is called after its preset, until it gets another filter") {
     CHECK_FALSE(titles.contains(""));
 }
 
+TEST_CASE("two panes of one filter are told apart by what differs between them") {
+    Panes panes = startPanes(Settings{});
+    setFilter(panes, 1, Filter::Fixed);
+    setFilter(panes, 2, Filter::Fixed);
+    CHECK(titleOf(panes, 1) == "Fixed \xce\xb1"); // nothing differs
+    panes.all[1].settings.denoiser.temporal.alpha = 0.1f;
+    panes.all[2].settings.denoiser.temporal.alpha = 0.3f;
+    CHECK(titleOf(panes, 1) == "Fixed \xce\xb1 0.1");
+    CHECK(titleOf(panes, 2) == "Fixed \xce\xb1 0.3");
+    CHECK(titleOf(panes, 0) == "A-SVGF");
+    panes.all[1].settings.denoiser.temporal.alpha = 0.2f; // the default, beside another
+    CHECK(titleOf(panes, 1) == "Fixed \xce\xb1 0.2");
+    CHECK(recordOf(panes, 1) == ProbePane{"Fixed \xce\xb1 0.2", "filter=fixed"});
+    CHECK(recordOf(panes, 2) == ProbePane{"Fixed \xce\xb1 0.3", "filter=fixed alpha=0.3"});
+    // Alone, by what is not at its default.
+    setFilter(panes, 2, Filter::Clamp);
+    CHECK(titleOf(panes, 1) == "Fixed \xce\xb1");
+    CHECK(titleOf(panes, 2) == std::string(titleOf(Filter::Clamp)) + " \xce\xb1 0.3");
+    // A preset is called by its name while it is unchanged.
+    setPane(panes, 0, "Mine", panes.all[2].settings);
+    CHECK(titleOf(panes, 0) == "Mine");
+    panes.all[0].settings.denoiser.temporal.alpha = 0.25f;
+    CHECK(titleOf(panes, 0) == "Mine, \xce\xb1 0.25");
+    // The display changes no number, and what belongs to all panes is recorded of each.
+    setField(panes, fieldByKey("exposure"), 2.0);
+    CHECK(recordOf(panes, 1).settings == "filter=fixed");
+    setField(panes, fieldByKey("signal"), double(Signal::Shadows));
+    CHECK(recordOf(panes, 1).settings == "filter=fixed signal=shadows");
+}
+
+TEST_CASE("panes that are not in use are never shown or chosen") {
+    for (std::size_t count = 1; count <= kFilterStates; ++count) {
+        CAPTURE(count);
+        Panes panes = startPanes(Settings{});
+        panes.count = count;
+        std::set<PaneLayout> layouts;
+        for (int i = 0; i < 20; ++i) {
+            cycleLayout(panes, i < 10 ? 1 : -1);
+            layouts.insert(panes.layout);
+            for (std::size_t pane = 0; pane < kFilterStates; ++pane) {
+                choosePane(panes, pane);
+                CHECK(panes.active < count);
+                cyclePane(panes, i % 2 ? 1 : -1);
+                for (const std::size_t shown : shownPanes(panes))
+                    CHECK(shown < count);
+            }
+            CHECK(placesOf(panes, {{0, 0}, {90, 60}}, {9, 6}).size() ==
+                  (panes.layout == PaneLayout::Difference ? 1 : shownPanes(panes).size()));
+        }
+        CHECK(layouts.size() == (count == 1 ? 1u : count == 2 ? 4u : 5u));
+        chooseLayout(panes, PaneLayout::FourUp);
+        CHECK((panes.layout == PaneLayout::FourUp) == (count > 2));
+    }
+}
+
 TEST_CASE("the parameters told of a pane are alpha and what is not at its default") {
     Panes panes = startPanes(Settings{});
     Pane& pane = panes.all[0];

@@ -15,7 +15,7 @@ constexpr Rect kView{{20, 10}, {400, 300}};
 struct Mouse {
     ViewState state = cornellState();
     Pointer pointer;
-    bool overPanel = false, shift = false;
+    bool overPanel = false, shift = false, control = false;
     glm::ivec2 image = kImage;
 
     explicit Mouse(PaneLayout layout = PaneLayout::Single) { chooseLayout(state.panes, layout); }
@@ -34,6 +34,7 @@ struct Mouse {
                      .pressed = pressed,
                      .released = released,
                      .adds = shift,
+                     .exact = control,
                      .onPicture = !overPanel},
                     places(), image);
     }
@@ -61,12 +62,14 @@ struct Mouse {
 
 } // namespace
 
-TEST_CASE("a click sets a probe of exactly that pixel, and its pane is the active one") {
+TEST_CASE("a click sets a box of nine by nine around its pixel, inside the picture") {
     Mouse mouse(PaneLayout::FourUp);
     for (const std::size_t pane : {3u, 1u, 0u, 2u})
-        for (const glm::ivec2 pixel : {glm::ivec2(0, 0), {60, 36}, {17, 5}}) {
+        for (const auto& [pixel, corner] : {std::pair(glm::ivec2(0, 0), glm::ivec2(0, 0)),
+                                            {{60, 36}, {52, 28}},
+                                            {{17, 5}, {13, 1}}}) {
             mouse.click(mouse.over(pane, pixel));
-            CHECK(mouse.probe(0) == Probe{pixel, {1, 1}});
+            CHECK(mouse.probe(0) == Probe{corner, {9, 9}});
             CHECK(mouse.state.panes.active == pane);
             CHECK(mouse.probes() == 1);
         }
@@ -74,10 +77,21 @@ TEST_CASE("a click sets a probe of exactly that pixel, and its pane is the activ
     CHECK(mouse.pointer.holds == Pointer::Holds::Nothing);
 }
 
-TEST_CASE("a click within one round is a click") {
+TEST_CASE("a click with Control held is exactly its pixel") {
     Mouse mouse;
-    mouse.round(mouse.over(0, {4, 9}), true, true);
-    CHECK(mouse.probe(0) == Probe{{4, 9}, {1, 1}});
+    mouse.control = true;
+    mouse.click(mouse.over(0, {17, 5}));
+    CHECK(mouse.probe(0) == Probe{{17, 5}, {1, 1}});
+}
+
+TEST_CASE("a click within one round is a click, and so is one whose hand trembles") {
+    Mouse mouse;
+    mouse.round(mouse.over(0, {14, 9}), true, true);
+    CHECK(mouse.probe(0) == Probe{{10, 5}, {9, 9}});
+    const PanePlace place = mouse.places()[0];
+    const glm::vec2 edge = positionOf(place, {20.0f, 9.5f}, kImage);
+    mouse.drag(edge + glm::vec2(0.5f, 0.0f), edge - glm::vec2(1.5f, 0.0f));
+    CHECK(mouse.probe(0) == Probe{{16, 5}, {9, 9}});
 }
 
 TEST_CASE("a drag sets the box between two pixels, whichever corners they are") {
@@ -94,7 +108,7 @@ TEST_CASE("a drag sets the box between two pixels, whichever corners they are") 
 TEST_CASE("the box that is dragged can be seen, and is no probe before the button goes up") {
     Mouse mouse;
     mouse.round(mouse.over(0, {5, 7}), true);
-    CHECK(draggedProbe(mouse.pointer, kImage) == Probe{{5, 7}, {1, 1}});
+    CHECK(draggedProbe(mouse.pointer, kImage) == Probe{{1, 3}, {9, 9}}); // if it becomes a click
     mouse.round(mouse.over(0, {9, 8}));
     CHECK(draggedProbe(mouse.pointer, kImage) == Probe{{5, 7}, {5, 2}});
     CHECK(mouse.probes() == 0);
@@ -126,23 +140,23 @@ TEST_CASE("with Shift each click adds a probe, while there is room; without, the
     Mouse mouse;
     mouse.shift = true;
     for (std::size_t i = 0; i < kProbes; ++i) {
-        mouse.click(mouse.over(0, {int(i), 3}));
+        mouse.click(mouse.over(0, {10 + int(i), 13}));
         CHECK(mouse.probes() == i + 1);
         CHECK(mouse.state.activeProbe == i);
     }
     mouse.click(mouse.over(0, {40, 3}));
     CHECK(mouse.probes() == kProbes);
     for (std::size_t i = 0; i < kProbes; ++i)
-        CHECK(mouse.probe(i).min.x == (i + 1 < kProbes ? int(i) : 40));
+        CHECK(mouse.probe(i).min.x == (i + 1 < kProbes ? 6 + int(i) : 36));
     mouse.shift = false;
     mouse.state.activeProbe = 1;
     mouse.click(mouse.over(0, {50, 3}));
-    CHECK(mouse.probe(1).min.x == 50);
-    CHECK(mouse.probe(0).min.x == 0);
+    CHECK(mouse.probe(1).min.x == 46);
+    CHECK(mouse.probe(0).min.x == 6);
     mouse.state.probes[2].reset(); // the one that is free is taken
     mouse.shift = true;
     mouse.click(mouse.over(0, {55, 3}));
-    CHECK(mouse.probe(2).min.x == 55);
+    CHECK(mouse.probe(2).min.x == 51);
 }
 
 TEST_CASE("dragging the divider moves it, sets no probe and chooses no pane") {
@@ -204,7 +218,7 @@ TEST_CASE("what is under the mouse is known in every round") {
     CHECK_FALSE(mouse.state.hovered);
 }
 
-TEST_CASE("a probe at the mouse is the active one, on the pixel under it") {
+TEST_CASE("a probe at the mouse is the active one, around the pixel under it") {
     Mouse mouse;
     mouse.state.activeProbe = 2;
     probeAtMouse(mouse.state, kImage);
@@ -213,7 +227,7 @@ TEST_CASE("a probe at the mouse is the active one, on the pixel under it") {
     probeAtMouse(mouse.state, {0, 0});
     CHECK(mouse.probes() == 0);
     probeAtMouse(mouse.state, kImage);
-    CHECK(mouse.probe(2) == Probe{{33, 12}, {1, 1}});
+    CHECK(mouse.probe(2) == Probe{{29, 8}, {9, 9}});
 }
 
 TEST_CASE("a box whose pane goes out of view while it is dragged stays as it was") {

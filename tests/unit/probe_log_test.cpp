@@ -17,7 +17,7 @@ namespace {
 ProbeFrame frameOf(std::uint32_t number, double lit = 1.0) {
     ProbeFrame frame;
     frame.frame = number;
-    frame.panes[0] = "svgf";
+    frame.panes[0] = {"SVGF", "filter=svgf"};
     frame.probes[0] = probeAt({3, 5}, {61, 37});
     frame.samples[0][0] = ProbeSample{.pixels = 1, .lit = lit, .rawLit = 2.0 * lit};
     return frame;
@@ -33,6 +33,15 @@ std::vector<std::string> linesOf(const std::string& text) {
     }
     REQUIRE(lines.back().empty()); // the last line ends too
     lines.pop_back();
+    return lines;
+}
+
+const ProbeRun kRun{"cornell", 7, {61, 37}};
+
+/// The lines that begin with "# ", or the others.
+std::vector<std::string> linesOf(const ProbeLog& log, bool facts) {
+    std::vector<std::string> lines = linesOf(toCsv(log, kRun));
+    std::erase_if(lines, [&](const std::string& line) { return line.starts_with("# ") != facts; });
     return lines;
 }
 
@@ -54,13 +63,21 @@ std::vector<std::string> fieldsOf(const std::string& line) {
 
 } // namespace
 
-TEST_CASE("a click is exactly its pixel, and a drag holds both of its corners in any order") {
+TEST_CASE("a probe at a pixel is that pixel, and one between two holds both in any order") {
     const glm::ivec2 image{61, 37};
     CHECK(probeAt({60, 0}, image) == Probe{{60, 0}, {1, 1}});
     const Probe box{{3, 5}, {8, 2}};
     CHECK(probeBetween({3, 5}, {10, 6}, image) == box);
     CHECK(probeBetween({10, 6}, {3, 5}, image) == box);
     CHECK(probeBetween({3, 6}, {10, 5}, image) == box);
+}
+
+TEST_CASE("a probe around a pixel has nine by nine pixels, moved into the picture, or all of it") {
+    const glm::ivec2 image{61, 37};
+    CHECK(probeAround({30, 20}, image) == Probe{{26, 16}, {9, 9}});
+    CHECK(probeAround({0, 36}, image) == Probe{{0, 28}, {9, 9}});
+    CHECK(probeAround({60, -5}, image) == Probe{{52, 0}, {9, 9}});
+    CHECK(probeAround({3, 1}, {61, 4}) == Probe{{0, 0}, {9, 4}});
 }
 
 TEST_CASE("a probe never leaves its picture and is never empty") {
@@ -191,29 +208,37 @@ TEST_CASE("a probe that moves starts again, and the others go on") {
     CHECK(seriesOf(log, 1, 0, ProbeQuantity::Lit)[1] == 6.0f);
 }
 
-TEST_CASE("another filter in a pane leaves a mark that concerns this pane alone") {
+TEST_CASE("other settings of a pane leave a mark that concerns this pane alone") {
     ProbeLog log;
     ProbeFrame frame = frameOf(0);
+    const auto newest = [&](const ProbePane& pane) {
+        ++frame.frame;
+        frame.panes[1] = pane;
+        log.add(frame);
+        return log.frames().back().marks;
+    };
     log.add(frame);
-    frame.frame = 1;
-    frame.panes[1] = "asvgf"; // a new pane is not another filter
-    log.add(frame);
-    CHECK(log.frames().back().marks.empty());
-    frame.frame = 2;
-    frame.panes[1] = "accumulate";
-    log.add(frame);
-    REQUIRE(log.frames().back().marks.size() == 1);
-    const ProbeMark& mark = log.frames().back().marks[0];
-    CHECK(mark.text == "pane B: accumulate");
-    CHECK(mark.pane == std::size_t(1));
-    CHECK_FALSE(mark.step);
+    CHECK(newest({"A-SVGF", "filter=asvgf"}).empty()); // a new pane is no change
+    for (const auto& [pane, text] :
+         {std::pair<ProbePane, std::string>({"A-SVGF alpha 0.1", "filter=asvgf alpha=0.1"},
+                                            "pane B: A-SVGF alpha 0.1"),
+          {ProbePane{"Fixed alpha", "filter=fixed"}, "pane B: Fixed alpha"},
+          {ProbePane{"Fixed alpha", "filter=fixed signal=ao"}, "pane B: new settings"}}) {
+        const auto marks = newest(pane);
+        REQUIRE(marks.size() == 1);
+        CHECK(marks[0].text == text);
+        CHECK(marks[0].pane == std::size_t(1));
+        CHECK_FALSE(marks[0].step);
+        CHECK(newest(pane).empty());
+    }
+    CHECK(newest({"Another name", "filter=fixed signal=ao"}).empty());   // names make no numbers
     CHECK_FALSE(std::isnan(seriesOf(log, 0, 0, ProbeQuantity::Lit)[0])); // the series goes on
 }
 
 TEST_CASE("a sample without its probe or its pane is refused") {
     ProbeLog log;
     ProbeFrame frame = frameOf(0);
-    frame.panes[0].clear();
+    frame.panes[0] = {};
     CHECK_THROWS_AS(log.add(frame), std::logic_error);
     frame = frameOf(0);
     frame.probes[0].reset();
@@ -224,14 +249,14 @@ TEST_CASE("a sample without its probe or its pane is refused") {
 TEST_CASE("the CSV has a row for each sample, whose numbers read back exactly") {
     ProbeLog log;
     ProbeFrame frame = frameOf(7, 0.1 + 0.2);
-    frame.panes[0] = "svgf, \"wide\"";
-    frame.panes[2] = "asvgf";
+    frame.panes[0] = {"svgf, \"wide\"", "filter=svgf"};
+    frame.panes[2] = {"asvgf", "filter=asvgf"};
     frame.probes[3] = probeBetween({1, 2}, {4, 9}, {61, 37});
     frame.samples[3][2] = ProbeSample{}; // no surface
     frame.marks = {{"key off", true, {}}, {"fill, on", true, {}}};
     log.add(frame);
 
-    const std::vector<std::string> lines = linesOf(toCsv(log));
+    const std::vector<std::string> lines = linesOf(log, false);
     REQUIRE(lines.size() == 3);
     CHECK(lines[0] == "frame,event,probe,x,y,width,height,pane,name,pixels,lit,raw_lit,"
                       "raw_variance,variance,lambda,alpha,history,response");
@@ -255,7 +280,7 @@ TEST_CASE("the CSV's response is that of the frame's own event, and empty where 
         const double light = i < 20 ? 1.0 : i < 60 ? 0.0 : 1.0;
         filtered += 0.5 * (light - filtered);
         ProbeFrame frame = frameOf(i);
-        frame.panes[1] = "none";
+        frame.panes[1] = {"none", "filter=none"};
         frame.probes[0] = probeBetween({0, 0}, {9, 9}, {61, 37});
         frame.samples[0][0] = ProbeSample{.pixels = 100, .lit = filtered, .rawLit = light};
         frame.samples[0][1] = ProbeSample{.pixels = 100, .lit = light, .rawLit = light};
@@ -263,7 +288,7 @@ TEST_CASE("the CSV's response is that of the frame's own event, and empty where 
             frame.marks = {{i == 20 ? "key off" : "key on", true, {}}};
         log.add(frame);
     }
-    const std::vector<std::string> lines = linesOf(toCsv(log));
+    const std::vector<std::string> lines = linesOf(log, false);
     REQUIRE(lines.size() == 201);
     for (int i = 0; i < 100; ++i) {
         const std::vector<std::string> slow = fieldsOf(lines[std::size_t(1 + 2 * i)]);
@@ -283,5 +308,43 @@ TEST_CASE("the CSV's response is that of the frame's own event, and empty where 
                   doctest::Approx(1.0 - std::pow(0.5, since + 1)).epsilon(1e-3));
         }
     }
-    CHECK(toCsv(ProbeLog()).find('\n') == toCsv(ProbeLog()).size() - 1);
+    CHECK(linesOf(ProbeLog(), false).size() == 1);
+}
+
+TEST_CASE("the CSV begins with the run, the settings of each pane, what happened and the results") {
+    ProbeLog log;
+    double fast = 1.0, slow = 1.0;
+    for (std::uint32_t i = 0; i < 55; ++i) {
+        const double light = i < 20 ? 1.0 : 0.0;
+        fast += 0.5 * (light - fast);
+        slow += 0.001 * (light - slow);
+        ProbeFrame frame = frameOf(i);
+        frame.panes[0] = {"Fixed alpha 0.5", "filter=fixed alpha=0.5"};
+        frame.panes[1] = {"Fixed alpha 0.001", "filter=fixed alpha=0.001"};
+        if (i >= 47)
+            frame.panes[1] = {"SVGF", "filter=svgf"};
+        frame.probes[0] = probeBetween({0, 0}, {9, 9}, {61, 37});
+        frame.samples[0][0] = ProbeSample{.pixels = 100, .lit = fast, .rawLit = light};
+        frame.samples[0][1] = ProbeSample{.pixels = 100, .lit = slow, .rawLit = light};
+        if (i == 20)
+            frame.marks = {{"key off", true, {}}};
+        log.add(frame);
+    }
+    const std::vector<std::string> expected{
+        "# scene: cornell",
+        "# seed: 7",
+        "# size: 61x37",
+        "# pane A from frame 0: Fixed alpha 0.5: filter=fixed alpha=0.5",
+        "# pane B from frame 0: Fixed alpha 0.001: filter=fixed alpha=0.001",
+        "# pane B from frame 47: SVGF: filter=svgf",
+        "# event: frame 20, key off",
+        "# event: frame 47, pane B: SVGF",
+        "# result: probe A, pane A, Fixed alpha 0.5, frame 20, key off: t50 1, t90 3, "
+        "1.0 ghost frames so far (live, 34)",
+        "# result: probe A, pane B, Fixed alpha 0.001, frame 20, key off: t50 > 26, t90 > 26, "
+        "> 26.6 ghost frames (cut short)"};
+    const std::vector<std::string> facts = linesOf(log, true);
+    REQUIRE(facts.size() == expected.size());
+    for (std::size_t i = 0; i < facts.size(); ++i)
+        CHECK(facts[i] == expected[i]);
 }
