@@ -258,7 +258,7 @@ std::string statusText(const LiveResponse& response) {
     case Status::Waiting: return "measuring";
     case Status::NotMeasured: return "not measured";
     case Status::TooSmall: return "step too small";
-    case Status::TooNoisy: return response.isOnePixel ? "one pixel: too noisy" : "too noisy";
+    case Status::TooNoisy: return response.isOnePixel ? "pixel too noisy" : "too noisy";
     case Status::Live:
         return response.over ? "cut short" : fmt::format("live, {}", response.framesSince);
     case Status::Settled: return "settled";
