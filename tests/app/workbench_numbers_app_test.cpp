@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A number in the window belongs to what made it: scene, filter, settings and event.
 
 #include "app/measure/live_response.h"
