@@ -42,8 +42,9 @@ struct Parsed {
     Options options{app};
     MadeCommand command;
 
-    Parsed(CLI::App& parent, const CommandRow& row)
-        : row(row), app(*parent.add_subcommand(row.name, row.help)), command(row.make(options)) {}
+    Parsed(CLI::App& parent, const CommandRow& chosen)
+        : row(chosen), app(*parent.add_subcommand(row.name, row.help)), command(row.make(options)) {
+    }
 };
 
 // What the parser could make nothing of: a word that is no subcommand, an option that is unknown,

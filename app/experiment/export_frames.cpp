@@ -63,12 +63,12 @@ Json conventions() {
                    "lit = raw * albedo, color = lit + emission, per channel; of several signals "
                    "(raw_shadows, raw_ao) lit is the sum"},
         {"background", "depth 0: there is no surface, and nothing is measured"},
-        {"depth", "distance along the view axis, metres"},
+        {"depth", "distance along the view axis, meters"},
         {"motion", "in the frame before, what (x + 0.5, y + 0.5) shows was at "
                    "(x + 0.5, y + 0.5) + motion: pixels, x to the right, y down"},
         {"previous_depth", "the depth which that surface had in the frame before, from where the "
                            "camera was then; 0: none, it was not before the camera"},
-        {"world", "right-handed, metres"},
+        {"world", "right-handed, meters"},
         {"view", "the camera looks along -z, x to the right, y up"},
         {"orientation", "quaternion [w, x, y, z] that turns view space into world space"},
         {"matrices", "lists of rows, for column vectors: view = view_from_world * (x, y, z, 1)"},
@@ -126,7 +126,7 @@ void exportFrames(const Experiment& experiment, const StagedRun& run, Renderer& 
         for (std::size_t i = 0; i < (aov->perSignal ? signals.size() : 1); ++i)
             files[fileStem(*aov, signals[i], signals.size())] = describe(*aov);
     files[std::string(kPreviousDepth)] = {
-        {"channels", "Y"}, {"meaning", "depth of the surface a frame ago, metres; 0 is none"}};
+        {"channels", "Y"}, {"meaning", "depth of the surface a frame ago, meters; 0 is none"}};
     folder.writeJson(kAccount, {{"program", "afterglow"},
                                 {"version", version()},
                                 {"commit", commit()},

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kRateOfStills = 60.0;  // frames per second, where time makes no difference
 constexpr double kTimeTolerance = 1e-6; // seconds
-constexpr float kViewTolerance = 1e-4f; // metres, and components of unit vectors
+constexpr float kViewTolerance = 1e-4f; // meters, and components of unit vectors
 constexpr double kMostFrames = 100000;  // of an experiment
 
 std::string number(double value) {

@@ -31,7 +31,7 @@ struct LightEvent {
 struct NodeMotion {
     int frame = 0, until = 1;
     std::string node;
-    glm::vec3 by{0.0f}; ///< metres, in its parent's space, from where it was
+    glm::vec3 by{0.0f}; ///< meters, in its parent's space, from where it was
 
     bool operator==(const NodeMotion&) const = default;
 };
@@ -39,7 +39,7 @@ struct NodeMotion {
 /// The camera travels and turns to another view.
 struct CameraMove {
     int frame = 0, until = 1;
-    glm::vec3 eye{0.0f}, target{0.0f}; ///< metres, world; upright
+    glm::vec3 eye{0.0f}, target{0.0f}; ///< meters, world; upright
 
     bool operator==(const CameraMove&) const = default;
 };

@@ -18,7 +18,7 @@ constexpr float kFastFactor = 4.0f;
 /// or the nadir. Diagonal moves are as fast as straight ones.
 void fly(Camera& camera, const FlyInput& input, float metresPerSecond, double seconds);
 
-/// Return a speed for a scene of that extent in metres, and the speed after notches of the wheel.
+/// Return a speed for a scene of that extent in meters, and the speed after notches of the wheel.
 float defaultSpeed(float extent);
 float changedSpeed(float metresPerSecond, float notches, float extent);
 

@@ -13,7 +13,7 @@ inline bool isTruth(std::size_t image) {
     return image >= aovs().size();
 }
 
-/// Returns how each of images() is shown at first in a scene of that extent in metres.
+/// Returns how each of images() is shown at first in a scene of that extent in meters.
 std::vector<ImageDisplay> imageDisplays(float extent);
 
 /// Of an image with a texel for every pixel, stratum or tile of a picture of that size.

@@ -137,7 +137,7 @@ public:
             g.add("came from", found.position, "where the surface was in the frame before, pixels");
             g.add("depth before", glm::vec2(found.depth, found.depthTolerance),
                   "of the surface in the frame before, and how far a pixel there may be from it, "
-                  "metres");
+                  "meters");
             g.add("valid weight", found.validWeight,
                   fmt::format("B: bilinear, of the pixels there that passed all tests; below {} "
                               "there is no history",

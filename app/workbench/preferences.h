@@ -16,7 +16,7 @@ namespace afterglow {
 /// A place to come back to.
 struct CameraBookmark {
     std::string name;
-    glm::vec3 position{0.0f};                      ///< metres, world
+    glm::vec3 position{0.0f};                      ///< meters, world
     glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f}; ///< as in Camera
     float verticalFov = 0.9f;                      ///< radians, in (0, pi)
 

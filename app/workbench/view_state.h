@@ -80,13 +80,13 @@ struct ViewState {
     std::vector<glm::vec3> lightColors;  ///< by slot: what they emit, linear
     std::vector<LightState> lights;      ///< by slot
     bool isAnimated = false;             ///< whether anything in the scene can move
-    float extent = 1.0f;                 ///< of the scene, metres
+    float extent = 1.0f;                 ///< of the scene, meters
 
     Camera camera;
     Camera home; ///< where goHome() leads
     std::vector<std::string> cameraNames;
     std::size_t cameraIndex = 0; ///< whose pose `home` was
-    float speed = 1.0f;          ///< metres per second
+    float speed = 1.0f;          ///< meters per second
     bool onPath = false;
     double pathSeconds = 0.0;
 

@@ -13,7 +13,7 @@ namespace afterglow {
 
 /// The points origin + t * direction for t in (0, tMax). The direction need not have unit length.
 struct Ray {
-    glm::dvec3 origin{0.0}; ///< metres, world
+    glm::dvec3 origin{0.0}; ///< meters, world
     glm::dvec3 direction{0.0, 0.0, -1.0};
     double tMax = std::numeric_limits<double>::infinity();
 };

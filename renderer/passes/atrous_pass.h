@@ -13,8 +13,8 @@ class AtrousPass {
 public:
     struct Inputs {
         const GpuTexture& signal; ///< rgb: demodulated signal; a: variance of its luminance
-        const GpuTexture& guides; ///< xyz: world normal; w: depth, metres; 0 marks background
-        const GpuTexture& slope;  ///< dz/dx, dz/dy: metres per pixel
+        const GpuTexture& guides; ///< xyz: world normal; w: depth, meters; 0 marks background
+        const GpuTexture& slope;  ///< dz/dx, dz/dy: meters per pixel
     };
     struct Outputs {
         GpuTexture& filtered; ///< as Inputs::signal; never the same texture

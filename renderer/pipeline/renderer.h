@@ -106,7 +106,7 @@ public:
     /// Hears what each pass makes, from the next frame on; empty: nobody. Must outlive its use.
     void setListener(PassListener* listener);
 
-    /// A reference: the converged signals of one moment, from the same pixel-centre surface samples
+    /// A reference: the converged signals of one moment, from the same pixel-center surface samples
     /// that a frame has and many samples of each signal a pixel, summed in compensated 32-bit
     /// float. begin, then add as often as wanted, then finish. All histories are lost.
     void beginReference(const FrameInput& input, const FrameSettings& settings);

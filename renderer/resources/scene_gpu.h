@@ -40,7 +40,7 @@ public:
     double bvhBuildMilliseconds() const { return bvhBuildMilliseconds_; }
     std::size_t triangleCount() const { return triangleCount_; } ///< over all instances
     std::uint32_t lightTriangleCount() const { return std::uint32_t(lights_.size()); }
-    float extent() const { return extent_; } ///< diagonal of the scene's box at rest, metres
+    float extent() const { return extent_; } ///< diagonal of the scene's box at rest, meters
 
     TexelBuffer vertices, triangles, instances, materials; ///< shared/scene.h
     TexelBuffer lightTriangles, lightScales;

@@ -11,8 +11,8 @@ namespace afterglow {
 /// The lens of a pinhole camera.
 struct Lens {
     float verticalFov = 0.9f;                           ///< radians, in (0, pi)
-    float near = 0.05f;                                 ///< metres, > 0
-    float far = std::numeric_limits<float>::infinity(); ///< metres, > near; infinity is allowed
+    float near = 0.05f;                                 ///< meters, > 0
+    float far = std::numeric_limits<float>::infinity(); ///< meters, > near; infinity is allowed
 
     bool operator==(const Lens&) const = default; ///< to the last bit
 };
@@ -20,7 +20,7 @@ struct Lens {
 /// Where a camera stands, where it looks and through what. Right-handed, Y up; it looks along its
 /// -Z.
 struct Camera {
-    glm::vec3 position{0.0f};                      ///< metres, world
+    glm::vec3 position{0.0f};                      ///< meters, world
     glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f}; ///< worldFromCamera rotation, unit length
     Lens lens;
 

@@ -45,7 +45,7 @@ void addTinySet(SceneBuilder& scene) {
     Mesh wall;
     addQuad(wall, {-2, 0, -2}, {2, 0, -2}, {2, 2.5f, -2}, {-2, 2.5f, -2});
     scene.add(std::move(wall), scene.material("wall", {0.35f, 0.5f, 0.6f}), still);
-    // One metre square seen from 2.5 m: an irradiance of about 12 / 2.5^2 = 1.9 on the floor.
+    // One meter square seen from 2.5 m: an irradiance of about 12 / 2.5^2 = 1.9 on the floor.
     scene.light("key", lampOf(2.5f, 0.5f), glm::vec3(12.0f));
     scene.camera(lookAt({1.6f, 1.7f, 4.2f}, {0.0f, 0.6f, 0.0f}));
 }

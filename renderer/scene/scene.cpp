@@ -25,7 +25,7 @@ std::string uniqueName(const std::string& wanted, std::set<std::string>& taken) 
 }
 
 void addDefaultLight(Scene& scene, const Bounds& bounds) {
-    // An empty scene has no extent; a metre keeps the light a light.
+    // An empty scene has no extent; a meter keeps the light a light.
     const float extent = bounds.extent() > 0.0f ? bounds.extent() : 1.0f;
     const float half = extent / 8.0f;
 

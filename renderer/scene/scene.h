@@ -17,7 +17,7 @@ namespace afterglow {
 /// Triangles in their own space. One glTF primitive.
 struct Mesh {
     std::string name;
-    std::vector<glm::vec3> positions;  ///< metres
+    std::vector<glm::vec3> positions;  ///< meters
     std::vector<glm::vec3> normals;    ///< unit length, one per position
     std::vector<glm::vec2> texCoords;  ///< one per position, or empty
     std::vector<glm::uvec3> triangles; ///< counter-clockwise seen from the front
@@ -79,7 +79,7 @@ struct SceneCamera {
     Lens lens;
 };
 
-/// A scene as plain values: copyable, with no OpenGL in it. Metres, seconds, right-handed, Y up.
+/// A scene as plain values: copyable, with no OpenGL in it. Meters, seconds, right-handed, Y up.
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;

@@ -9,7 +9,7 @@
 
 namespace afterglow {
 
-// Each function adds triangles to a mesh, which may already have some. Metres. Flat faces have
+// Each function adds triangles to a mesh, which may already have some. Meters. Flat faces have
 // vertices of their own, curved ones smooth normals. Triangles without area are left out.
 
 /// The flat quadrilateral a b c d, counter-clockwise seen from its front.

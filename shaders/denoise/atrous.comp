@@ -17,7 +17,7 @@ layout(std140, binding = kPassBlock) uniform Params {
 
 Float4Texture(signal); // rgb: demodulated signal; a: variance of its luminance
 Float4Texture(guides); // xyz: normal; w: depth, 0 marks background
-Float2Texture(slope);  // metres per pixel
+Float2Texture(slope);  // meters per pixel
 
 writeonly uniform image2D filtered;
 

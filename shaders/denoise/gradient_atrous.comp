@@ -17,7 +17,7 @@ layout(std140, binding = kPassBlock) uniform Params {
 
 Float4Texture(gradient);     // delta, Delta, mean luminance, variance of luminance
 Float4Texture(strataGuides); // xyz: normal; w: depth, 0 marks background
-Float2Texture(strataSlope);  // metres per pixel
+Float2Texture(strataSlope);  // meters per pixel
 
 writeonly uniform image2D filtered;
 

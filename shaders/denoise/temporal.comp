@@ -198,7 +198,7 @@ float lambdaOfStrata(ivec2 p) {
         return largest;
     }
     if (params.lambdaFetch == kLambdaBilinear) {
-        // Centres of strata lie at 3 s + 3/2 in pixel coordinates.
+        // Centers of strata lie at 3 s + 3/2 in pixel coordinates.
         vec2 position = (vec2(p) + 0.5) / float(kStratumSize) - 0.5;
         ivec2 corner = ivec2(floor(position));
         vec2 f = position - vec2(corner);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 450 core
 
-// Turns rasterized ids into visibility samples (with the barycentrics of the pixel's centre) and
+// Turns rasterized ids into visibility samples (with the barycentrics of the pixel's center) and
 // gives every pixel its own seed. Forward projection may then replace some of both.
 
 #include "lib/frame.glsl"

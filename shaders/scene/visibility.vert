@@ -5,7 +5,7 @@
 
 #include "lib/frame.glsl"
 
-layout(location = 0) in vec3 position; // object space, metres
+layout(location = 0) in vec3 position; // object space, meters
 
 uniform mat4 worldFromObject;
 

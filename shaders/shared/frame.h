@@ -11,17 +11,17 @@ struct FrameUniforms {
     mat4 previousClipFromWorld; // the frame before
     mat4 viewFromWorld;         // the camera looks along -Z
     mat4 previousViewFromWorld;
-    vec3 cameraPosition; // metres, world
+    vec3 cameraPosition; // meters, world
     float tanHalfFov;    // of the vertical field of view
     vec3 ambient;        // radiance of the uniform surroundings
-    float extent;        // diagonal of the scene's box, metres: the unit of all distances
+    float extent;        // diagonal of the scene's box, meters: the unit of all distances
     ivec2 size;          // pixels
     ivec2 strata;        // ceil(size / kStratumSize)
     uint frame;          // frame number of this frame
     uint seed;           // of the whole run
     uint historyValid;   // 0 on the first frame, after a resize, a reset or a scene change
     uint lightTriangleCount;
-    float aoRadius;    // metres
+    float aoRadius;    // meters
     float signalClamp; // upper bound of each channel of the raw signal, radiance
     uint sampleIndex;  // replaces the frame number in new seeds
     float unused0;

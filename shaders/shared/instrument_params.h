@@ -36,7 +36,7 @@ struct HistoryTap {
     float weight;  // bilinear; the four sum to 1
     int reason;    // kHistory...
     uint instance; // seen there
-    float depth;   // seen there, metres
+    float depth;   // seen there, meters
     float cosine;  // between the normal seen there and that of the surface
     float unused0;
 };
@@ -48,8 +48,8 @@ struct TemporalFindings {
     ivec2 texel;   // whose they are
     vec2 position; // of its surface in the frame before, pixels, their centers at integers
     HistoryTap taps[kHistoryTaps]; // in the order (0, 0), (1, 0), (0, 1), (1, 1)
-    float depth;                   // of its surface in the frame before, metres
-    float depthTolerance;          // metres
+    float depth;                   // of its surface in the frame before, meters
+    float depthTolerance;          // meters
     float validWeight;             // B: of the taps that passed all tests
     float leastWeight;             // 1 / (N + 1), N as used
     vec3 fetchedColor;             // of the history, before it is clamped

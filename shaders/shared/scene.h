@@ -7,7 +7,7 @@ SHARED_BEGIN
 // GLSL reads them by kTexelsPer... and the order of members below.
 
 struct Vertex {    // also the vertex buffer of the raster pass
-    vec3 position; // metres, object
+    vec3 position; // meters, object
     float u;
     vec3 normal; // unit length, object
     float v;

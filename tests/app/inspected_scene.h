@@ -76,7 +76,7 @@ struct InspectedScene {
         camera = cameraAt(renderer.scene(), poseAt(renderer.scene(), 0.0));
         lights.resize(renderer.scene().lights.size());
     }
-    /// With the camera moved to its right by so many metres.
+    /// With the camera moved to its right by so many meters.
     void render(std::span<const FilterRun> runs, float right = 0.0f) {
         camera.position += camera.orientation * glm::vec3(right, 0.0f, 0.0f);
         renderer.render({.camera = camera,

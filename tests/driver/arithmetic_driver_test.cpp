@@ -70,7 +70,7 @@ int movedPixels(const char* scene, const RewrittenShaders::Rewrite& rewrite) {
     return moved;
 }
 
-/// A square of 18 metres around a point, seen from where `front` points to.
+/// A square of 18 meters around a point, seen from where `front` points to.
 Mesh square(glm::vec3 center, float front) {
     Mesh mesh;
     for (const glm::vec2 corner : {glm::vec2(-9, -9), {9, -9}, {9, 9}, {-9, 9}}) {
@@ -100,7 +100,7 @@ struct Strata {
 /// between two pixels, and rounding decides.
 Strata strataAtBorders(const RewrittenShaders::Rewrite& rewrite) {
     Frames frames(wall(), rewrite);
-    const float pixel = 2.0f * 3.0f * std::tan(0.5f) / float(kSize.y); // metres on the wall
+    const float pixel = 2.0f * 3.0f * std::tan(0.5f) / float(kSize.y); // meters on the wall
     Strata strata;
     for (int i = 0; i < 12; ++i) {
         (i % 2 == 0 ? frames.camera.position.x : frames.camera.position.y) += 0.5f * pixel;

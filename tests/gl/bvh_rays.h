@@ -46,7 +46,7 @@ std::uint32_t addNode(Scene& scene, const Node& node);
 /// One instance of the mesh, where it is.
 Scene sceneOf(Mesh mesh);
 
-/// A hall of 24 by 6 by 12 metres with columns, spheres and splinters: more than 100,000 triangles.
+/// A hall of 24 by 6 by 12 meters with columns, spheres and splinters: more than 100,000 triangles.
 Mesh clutteredHall(Random& random);
 
 /// A floor and forty things above it that move: turned, squeezed, half of them mirrored.

@@ -14,7 +14,7 @@ struct Exact {
     bool inside = false;            ///< the line of the ray meets the triangle
     double t = INFINITY;            ///< where it meets the triangle's plane
     double tolerance = 0.0;         ///< of t: what single precision may make of it
-    double edgeDistance = INFINITY; ///< of the line from the nearest edge, metres
+    double edgeDistance = INFINITY; ///< of the line from the nearest edge, meters
 };
 
 namespace {

@@ -36,7 +36,7 @@ public:
     /// `triangles` as worldTriangles() orders them.
     Judge(const std::vector<WorldTriangle>& triangles, std::size_t instances);
 
-    /// How far from an edge a line still touches it, metres.
+    /// How far from an edge a line still touches it, meters.
     double edge() const { return edge_; }
 
     /// How far a claimed hit is from where its triangle is, in tolerances of t.

@@ -16,12 +16,12 @@
 
 namespace afterglow::reference {
 
-/// A pixel of the guides image: unit normal, depth in metres (0: background).
+/// A pixel of the guides image: unit normal, depth in meters (0: background).
 inline bool isBackground(const glm::vec4& guide) {
     return guide.w == 0.0f;
 }
 
-/// Equation 3. `offset` is p - q in pixels; `slope` is that of p, metres per pixel.
+/// Equation 3. `offset` is p - q in pixels; `slope` is that of p, meters per pixel.
 inline double depthWeight(const glm::vec4& p, const glm::vec4& q, glm::dvec2 slope,
                           glm::dvec2 offset, double sigma) {
     const double predicted = std::abs(glm::dot(slope, offset));

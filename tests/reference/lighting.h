@@ -60,7 +60,7 @@ struct LightingInputs {
     const SceneView& scene;
     const std::vector<Emitter>& emitters;
     const Random& random;
-    double extent;   ///< of the scene at time 0, metres
+    double extent;   ///< of the scene at time 0, meters
     double aoRadius; ///< in extents
     double signalClamp;
     glm::dvec3 ambient;

@@ -18,7 +18,7 @@
 namespace afterglow::reference {
 
 struct Triangle {
-    glm::dvec3 corners[3]; ///< world, metres
+    glm::dvec3 corners[3]; ///< world, meters
     glm::dvec3 front{0.0}; ///< world, unit: of the face, to its front; 0 if it has no area
     std::uint32_t instance = 0, triangle = 0;
     bool doubleSided = false;
@@ -142,7 +142,7 @@ struct View {
         const glm::dvec4 c = clip(world);
         return {(0.5 + 0.5 * c.x / c.w) * size.x, (0.5 - 0.5 * c.y / c.w) * size.y};
     }
-    /// The direction of the points at a place in the picture, as long as to get one metre deeper.
+    /// The direction of the points at a place in the picture, as long as to get one meter deeper.
     glm::dvec3 ray(const glm::dvec2& place) const {
         return worldFromView * glm::dvec3((2.0 * place.x / size.x - 1.0) * tangents.x,
                                           (1.0 - 2.0 * place.y / size.y) * tangents.y, -1.0);

@@ -14,7 +14,7 @@ namespace {
 struct Way {
     std::string scene;
     glm::ivec2 size;
-    float metres;           ///< of the camera, from frame to frame
+    float meters;           ///< of the camera, from frame to frame
     double secondsPerFrame; ///< of the scene
     std::uint32_t firstFrame = 0;
 };
@@ -31,7 +31,7 @@ ForwardVerdict follow(const Way& way, int frames) {
         for (SceneFrames* each : {&merging, &plain}) {
             if (i == 0)
                 each->frame = way.firstFrame;
-            shake(*each, start, i, way.metres);
+            shake(*each, start, i, way.meters);
             each->seconds = way.secondsPerFrame * i;
         }
         const SceneFrame merged = merging.next(), unmerged = plain.next();

@@ -25,7 +25,7 @@ struct Case {
     std::string scene;
     glm::ivec2 size;
     Signal signal;
-    float metres;
+    float meters;
 };
 
 } // namespace
@@ -52,7 +52,7 @@ TEST_CASE("the raw signal is what one light sample and one ambient ray give, pix
         const Camera start = frames.camera;
         frames.runSeed = 5;
         for (int i = 0; i < (c.scene == "hall" ? 1 : 3); ++i) {
-            shake(frames, start, i + 1, c.metres);
+            shake(frames, start, i + 1, c.meters);
             frames.seconds = 0.3 * i;
             frames.frame = i == 0 ? 1000u : frames.frame;
             const LightingVerdict verdict = judgeLighting(frames, frames.next());

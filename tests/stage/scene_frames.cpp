@@ -163,10 +163,10 @@ const reference::Random& randomOf(std::uint32_t runSeed) {
     return runs.try_emplace(runSeed, tile, runSeed).first->second;
 }
 
-void shake(SceneFrames& frames, const Camera& start, int step, float metres) {
+void shake(SceneFrames& frames, const Camera& start, int step, float meters) {
     const float t = float(step);
-    frames.camera.position = start.position + metres * t * glm::vec3(0.9f, 0.2f, -0.5f);
-    const float angle = metres > 0.0f ? 0.011f * t : 0.0f;
+    frames.camera.position = start.position + meters * t * glm::vec3(0.9f, 0.2f, -0.5f);
+    const float angle = meters > 0.0f ? 0.011f * t : 0.0f;
     frames.camera.orientation = glm::normalize(
         glm::angleAxis(angle, glm::normalize(glm::vec3(0.1f, 1.0f, 0.0f))) * start.orientation);
 }

@@ -67,7 +67,7 @@ Scene sceneNamed(std::string_view name);
 /// The renderer's own noise, as a reference reads it.
 const reference::Random& randomOf(std::uint32_t runSeed);
 
-/// Moves the camera as a hand would, some way and some turn; not at all for 0 metres.
-void shake(SceneFrames& frames, const Camera& start, int step, float metres);
+/// Moves the camera as a hand would, some way and some turn; not at all for 0 meters.
+void shake(SceneFrames& frames, const Camera& start, int step, float meters);
 
 } // namespace afterglow::test

@@ -66,7 +66,7 @@ double measureSurface(ShaderLibrary& shaders) {
 double measureForward(ShaderLibrary& shaders) {
     struct Way {
         const char* scene;
-        float metres;
+        float meters;
     };
     ForwardVerdict sum;
     for (const Way& way : {Way{"cornell", 0.03f}, Way{"oddities", 0.08f}}) {
@@ -77,7 +77,7 @@ double measureForward(ShaderLibrary& shaders) {
         const Camera start = merging.camera;
         for (int i = 0; i < 6; ++i) {
             for (SceneFrames* each : {&merging, &plain}) {
-                shake(*each, start, i, way.metres);
+                shake(*each, start, i, way.meters);
                 each->seconds = 0.15 * i;
             }
             const SceneFrame merged = merging.next(), unmerged = plain.next();

@@ -38,7 +38,7 @@ TEST_CASE(
     struct Case {
         std::string scene;
         glm::ivec2 size;
-        float metres; ///< of the camera's way from frame to frame
+        float meters; ///< of the camera's way from frame to frame
     };
     for (const Case& c : {Case{"tiny", {61, 37}, 0.05f}, Case{"cornell", {61, 37}, 0.02f},
                           Case{"moving", {61, 37}, 0.0f}, Case{"oddities", {61, 37}, 0.06f},
@@ -52,7 +52,7 @@ TEST_CASE(
         int moved = 0;
         for (int i = 0; i < 4; ++i) {
             CAPTURE(i);
-            shake(frames, start, i, c.metres);
+            shake(frames, start, i, c.meters);
             frames.seconds = 0.2 * i;
             const SurfaceVerdict verdict = judgeSurface(frames, frames.next());
             check(verdict);

@@ -14,7 +14,7 @@ TEST_CASE("every pixel shows the nearest front face that the ray through its cen
     struct Case {
         std::string scene;
         glm::ivec2 size;
-        float metres;   ///< of the camera's way from frame to frame
+        float meters;   ///< of the camera's way from frame to frame
         double excused; ///< the greatest share of pixels
         double weights; ///< the greatest difference of barycentrics: more in small triangles
     };
@@ -31,7 +31,7 @@ TEST_CASE("every pixel shows the nearest front face that the ray through its cen
         const Camera start = frames.camera;
         // Not the camera's own place: from there whole edges lie on centers of pixels.
         for (int i = 1; i < 4; ++i) {
-            shake(frames, start, i, c.metres);
+            shake(frames, start, i, c.meters);
             frames.seconds = 0.3 * i;
             const VisibilityVerdict verdict = judgeVisibility(frames.next());
             MESSAGE(c.scene, " ", c.size.x, "x", c.size.y, ": ", verdict.background,

@@ -43,7 +43,7 @@ private:
 struct Shape {
     glm::vec2 least, most; ///< pixels
     glm::vec3 normal;
-    float depth; ///< metres at the top left corner of the picture
+    float depth; ///< meters at the top left corner of the picture
     glm::vec2 slope;
     glm::vec2 motion; ///< pixels, to the previous frame
     float depthMotion;

@@ -50,7 +50,7 @@ glm::vec3 placeOf(const Scene& scene, double seconds, std::size_t node) {
     return glm::vec3(poseAt(scene, seconds).worldFromNode.at(node)[3]);
 }
 
-/// A file whose node moves up by a metre at every key; the first key is at 0.
+/// A file whose node moves up by a meter at every key; the first key is at 0.
 Scene stairs(const std::vector<float>& times, const char* interpolation) {
     GltfBuilder builder;
     const int positions = builder.floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
@@ -90,7 +90,7 @@ TEST_CASE("a key on a frame acts in that frame and not before, at every rate") {
 TEST_CASE("a linear track has no jump around its keys") {
     // 6/60 s, stored as a float, is 1.5e-9 s above the time of the frame.
     const Scene scene = stairs({0.0f, 6.0f / 60.0f, 1.0f}, "LINEAR");
-    const double key = 6.0f / 60.0f, slope = 10.0; // metres a second, before the key
+    const double key = 6.0f / 60.0f, slope = 10.0; // meters a second, before the key
     float previous = placeOf(scene, key - 4e-8, 0).y;
     for (int i = -399; i <= 400; ++i) {
         const double seconds = key + i * 1e-10;

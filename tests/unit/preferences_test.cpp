@@ -74,7 +74,7 @@ TEST_CASE("a broken preference is at its default, the others are read, and one l
     CHECK(warningOf("{\n\"vsync\": fals") == ":2: this is not JSON");
     CHECK(warningOf("") == ":1: this is not JSON");
     CHECK(warningOf("[]") == ": expected an object, found a list of 0");
-    CHECK(warningOf(R"({"vsync": false, "colour": 1})") == ": colour: there is no such preference");
+    CHECK(warningOf(R"({"vsync": false, "color": 1})") == ": color: there is no such preference");
     CHECK(warningOf(R"({"windowSize": [1, 2], "vsync": false})") ==
           ": windowSize[0]: expected a whole number from 64 to 16384, found 1");
     CHECK(warningOf(R"({"uiScale": 0.1, "vsync": false})") ==
@@ -106,9 +106,9 @@ TEST_CASE("a broken file of preferences is kept when the next one is saved, a wh
     savePreferences(file, Preferences{});
     CHECK_FALSE(fs::exists(kept));
 
-    folder.write("preferences.json", R"({"colour": 1})");
+    folder.write("preferences.json", R"({"color": 1})");
     savePreferences(file, Preferences{});
-    CHECK(readFile(kept) == R"({"colour": 1})");
+    CHECK(readFile(kept) == R"({"color": 1})");
 }
 
 TEST_CASE("preferences that cannot be written are one error that names the place") {

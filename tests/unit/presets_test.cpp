@@ -265,7 +265,7 @@ TEST_CASE("a broken file among the user's presets is listed with its fault and h
     folder.write("bad.json", "{\n\n]");
     folder.write("other.json", presetText(ownPreset("name")));
     folder.write("paper.json", presetText(ownPreset("paper")));
-    folder.write("keys.json", R"({"name": "keys", "colour": 1})");
+    folder.write("keys.json", R"({"name": "keys", "color": 1})");
     folder.write("notes.txt", "not a preset");
     std::filesystem::create_directory(folder / "dir.json");
     store.reload();
@@ -281,7 +281,7 @@ TEST_CASE("a broken file among the user's presets is listed with its fault and h
     CHECK(errorOf("good").empty());
     CHECK(errorOf("bad") == at + "bad.json:3: this is not JSON");
     CHECK(errorOf("dir") == at + "dir.json: is a folder, not a file");
-    CHECK(errorOf("keys").starts_with(at + "keys.json: unknown key \"colour\""));
+    CHECK(errorOf("keys").starts_with(at + "keys.json: unknown key \"color\""));
     CHECK(errorOf("other") ==
           at + "other.json: name: expected \"other\", as the file is named, found \"name\"");
     CHECK(errorOf("paper") == at + "paper.json: a preset of this name comes with the program");

@@ -37,7 +37,7 @@ gpu::GradientParams gradientParams(float deltaFloor, float forceLambda) {
 
 constexpr Kernel kKernels[] = {Kernel::B3Spline5x5, Kernel::Box3x3};
 
-/// A wall that faces the viewer and fills the picture, two metres away, in front of a camera at
+/// A wall that faces the viewer and fills the picture, two meters away, in front of a camera at
 /// rest: every pixel keeps its history.
 struct Wall {
     explicit Wall(glm::ivec2 size)

@@ -59,7 +59,7 @@ Take throughText(const Take& take, const std::string& sceneName, int leadIn = 0)
     return takeOf(experiment, stagedRun(experiment));
 }
 
-/// The largest difference of a place (metres) or of an axis.
+/// The largest difference of a place (meters) or of an axis.
 float apart(const Camera& a, const Camera& b) {
     float most = glm::length(a.position - b.position);
     for (int axis = 0; axis < 3; ++axis) {
