@@ -37,7 +37,7 @@ def prose(lines):
 
 
 def exists(path):
-    if any(mark in path for mark in "*<>{}$") or "..." in path:
+    if any(mark in path for mark in "*<>{}$") or "NAME" in path or "..." in path:
         return True  # a pattern, not a path
     first = path.split("/")[0]
     if first in FOLDERS:

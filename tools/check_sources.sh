@@ -26,8 +26,8 @@ add_or_refuse() { # COMMENT FILE...
     shift
     for file in $(without_license "$@"); do
         if [ "$fix" = yes ]; then
-            at=1 # or behind the line that names the interpreter
-            head -n 1 "$file" | grep -q '^#!' && at=2
+            at=1 # or behind the line that must be the first
+            head -n 1 "$file" | grep -Eq '^#(!|version)' && at=2
             sed -i "${at}i $comment $license" "$file"
         else
             echo "$file: does not name its license (tools/check_sources.sh --fix adds it)" >&2

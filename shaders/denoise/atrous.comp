@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // One iteration of the edge-avoiding a-trous wavelet filter, guided by variance.
 // Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering", section 4.4, equations 3 to 5.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Forward projection, first half: every stratum of the previous frame offers one surface sample to
 // the stratum where it lands. Schied et al. 2018, section 4.1. Departure: not the first to arrive

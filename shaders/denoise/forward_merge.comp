@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Forward projection, second half: the winner of each stratum replaces the visibility sample and
 // the seed of the pixel it landed on. Every later pass treats that pixel like any other. Schied et

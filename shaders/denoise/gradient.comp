@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // The temporal gradient at the sample of each stratum: the same surface point, shaded with the same
 // random numbers, now and one frame ago. Schied et al. 2018, section 4.2.

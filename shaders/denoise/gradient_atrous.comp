@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // One iteration of the reconstruction of the temporal gradient, on the grid of strata: delta and
 // Delta are filtered alike, with the weights that filter the luminance of the strata. Schied et al.

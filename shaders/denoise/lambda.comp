@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // The normalized history weight. Schied et al. 2018, section 4.4: lambda = min(1, |delta| / Delta),
 // normalized once, after the reconstruction, so that empty strata do not bias it.

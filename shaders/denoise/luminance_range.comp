@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Two percentiles of the raw luminance of each tile of 8x8 pixels, and its mean between them: what
 // one frame alone says about how dark and how bright it is there. The idea is that of the SVGF in

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Normal, depth and slope of each stratum, for filters on the grid of strata: those of its center
 // pixel, or of its first pixel with a surface where the center shows none.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Back-projects the history and blends the new sample into it, with an alpha for each pixel.
 // Schied et al. 2017, section 4.1; Schied et al. 2018, section 4.4.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Variance of the luminance from its moments: over time, or over 7x7 pixels where the history is
 // too short to tell. Schied et al. 2017, section 4.2.

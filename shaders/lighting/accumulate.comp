@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Adds one sample per pixel to the sums of a reference. With NEXT_SEEDS it also makes the seeds of
 // the next sample: the same pixels with the next number of the sequence.

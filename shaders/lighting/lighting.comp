@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // One sample per pixel of the demodulated signal: a shadow ray to a random point of the area
 // lights, an ambient occlusion ray, or both. Schied et al. 2018, section 5. Every value depends on

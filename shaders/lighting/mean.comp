@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // The mean of the samples of a reference, and how much one sample's luminance varies around it.
 

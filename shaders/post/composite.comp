@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Puts back what the filters must not touch: emission, background, and what each signal was divided
 // by. SIGNALS says how many there are.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Shows what any image of a frame holds. SOURCE says how the image is declared: Float4Texture and
 // so on; SOURCE_IS_INTEGER where it holds integers.

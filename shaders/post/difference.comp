@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // What one image has more than another, channel by channel. SOURCE says how both are declared:
 // Float4Texture, Float2Texture or FloatTexture; channels that they do not have become 0.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // What a rectangle of the picture holds, as sums and squared deviations over blocks of it. Each
 // thread takes the same pixels of its block and threads are combined in a fixed order: the same

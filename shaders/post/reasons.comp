@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // How many pixels have each reason for their history; with FATES how many strata have each fate of
 // their gradient sample. Counted in the workgroup first, since all pixels share few bins.

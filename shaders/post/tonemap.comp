@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Linear radiance to the display: exposure, a curve with a shoulder, sRGB encoding.
 // The curve is the rational fit of Narkowicz 2015, "ACES Filmic Tone Mapping Curve", per channel.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // Turns rasterized ids into visibility samples (with the barycentrics of the pixel's center) and
 // gives every pixel its own seed. Forward projection may then replace some of both.

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // The surface behind each visibility sample: where it is, where it was one frame ago, what it is
 // made of.

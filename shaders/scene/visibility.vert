@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
 #version 450 core
+// SPDX-License-Identifier: MIT
 
 // One instance into the visibility buffer. Burns and Hunt 2013, "The Visibility Buffer".
 

@@ -464,7 +464,7 @@ TEST_CASE("wrong words about exports and imports are refused with exit code 2") 
         checkRefused(run(words, more), 2, mentioned);
         CHECK_FALSE(fs::exists(folder / "out"));
     };
-    imported("mine", {"--quantity", "color"}, {"'color'", "did you mean 'color'?"});
+    imported("mine", {"--quantity", "colr"}, {"'colr'", "did you mean 'color'?"});
     imported("a b", {}, {"--name", "'a b'"});
     imported("../x", {}, {"--name", "'../x'"});
     imported("asvgf", {}, {"--name asvgf", "of our own"});

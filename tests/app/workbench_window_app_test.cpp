@@ -28,6 +28,8 @@ std::vector<std::map<std::string, std::string>> rowsOf(const std::filesystem::pa
     std::vector<std::string> names;
     std::vector<std::map<std::string, std::string>> rows;
     while (std::getline(text, line)) {
+        if (line.starts_with('#')) // what the curves belong to
+            continue;
         if (line.ends_with('\r'))
             line.pop_back();
         std::vector<std::string> cells;
