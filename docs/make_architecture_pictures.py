@@ -36,10 +36,10 @@ FOLDERS = {
     "app/measure": "ground truth, metrics, response",
     "app/report": "pages and sheets",
     "app/experiment": "runs",
-    "app/commands": "the command line",
     "app/workbench": "the window's state and actions",
     "app/ui": "panels (Dear ImGui)",
     "app/window": "input, frames (GLFW)",
+    "app/commands": "the command line",
 }
 BOX_WIDTH, BOX_HEIGHT, GAP_X, GAP_Y, MARGIN = 236, 78, 30, 50, 40
 
