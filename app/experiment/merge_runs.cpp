@@ -89,7 +89,8 @@ void mergeVariant(const std::string& name, const std::vector<PartFolder>& parts,
             continue;
         const fs::path rows = folder / "metrics.csv";
         table.append(MetricsTable::parse(readFile(rows), rows.string()));
-        for (const Json& timing : readJson(folder / "timing.json").at("parts"))
+        const Json times = readJson(folder / "timing.json");
+        for (const Json& timing : times.at("parts"))
             timings.push_back(timing);
         copyPictures(folder, out);
         if (fs::exists(folder / "maps"))
@@ -113,7 +114,8 @@ void mergeOne(const std::vector<PartFolder>& parts, const OutputFolder& out, boo
         if (!fs::exists(folder))
             continue;
         copyPictures(folder, references);
-        for (const Json& reference : readJson(folder / "timing.json").at("references"))
+        const Json timing = readJson(folder / "timing.json");
+        for (const Json& reference : timing.at("references"))
             spent.push_back(reference);
     }
     references.writeJson("timing.json", {{"references", spent}});
