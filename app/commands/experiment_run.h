@@ -7,7 +7,7 @@
 
 namespace afterglow {
 
-/// What `afterglow experiment` and `afterglow sweep` have in common.
+/// The options that `afterglow experiment` and `afterglow sweep` share.
 struct ExperimentOptions {
     std::vector<std::string> experiments; ///< names of built-in ones, or files; "all": all built in
     std::string out;

@@ -23,9 +23,8 @@ namespace afterglow {
 // command_line.cpp include it. An option is added once, with its name, its variable, its kind and
 // its help; everything about it is there.
 
-/// What can stand behind an option: its word in the help, and how the text becomes a value. The
-/// function throws UsageError with what was expected and what was found; the option's name is put
-/// in front of that.
+/// The type of an option's value: its placeholder in the help, and its parser. The parser throws
+/// UsageError with what was expected and what was found; the option's name is put in front of that.
 template <class T>
 struct Kind {
     std::string word;
@@ -82,12 +81,12 @@ public:
     void add(const std::string& names, V& value, Kind<T> kind, const std::string& help) {
         addText(names, kind.word, help + defaultText(value), Count::Once, reader(value, kind));
     }
-    /// The same for one that must be given.
+    /// Adds an option that must be given.
     template <class T>
     void require(const std::string& names, T& value, Kind<T> kind, const std::string& help) {
         addText(names, kind.word, help, Count::Required, reader(value, kind));
     }
-    /// The same for one that may be given again for more values, and for places of any number,
+    /// Adds an option that may be given again for more values, and for places of any number,
     /// of which there must be one.
     template <class T>
     void addEach(const std::string& names, std::vector<T>& values, Kind<T> kind,
@@ -101,7 +100,8 @@ public:
 
     void exclude(const std::string& name, std::initializer_list<const char*> others);
     void need(const std::string& name, const std::string& other);
-    /// What several options must be together: throws UsageError. Called when all have been read.
+    /// Adds a check of several options together. It is called once all have been read, and throws
+    /// UsageError.
     void check(std::function<void()> check);
     void setFooter(const std::string& text); ///< of the help; exit codes are put behind it
 

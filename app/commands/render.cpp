@@ -131,7 +131,7 @@ Examples:
   afterglow render light-off --export --out out/noise)");
 }
 
-/// What --spp and --aov need of the others.
+/// Throws UsageError if --spp or --aov do not go together with the other options.
 void Render::check() const {
     const Settings settings = o_.settings();
     if (samples_ && settings.filter != Filter::None)

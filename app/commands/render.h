@@ -11,13 +11,13 @@ inline constexpr glm::ivec2 kRenderSize{640, 360};
 inline constexpr int kRenderFrames = 32;
 inline constexpr double kRenderRate = 60.0;
 
-/// What `afterglow render` is asked for, with --export and without.
+/// The options of `afterglow render`, with --export and without.
 struct RenderOptions {
     std::string source; ///< a scene; with --export also an experiment
     std::string out;
     std::optional<Variant> filter; ///< or A-SVGF
     SettingsGroup picture;
-    // Those that an experiment says itself where they are not given.
+    // Defaults of these come from the experiment, where there is one.
     std::optional<int> frames;
     std::optional<glm::ivec2> size;
     std::optional<std::uint32_t> seed;

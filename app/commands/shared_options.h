@@ -36,7 +36,7 @@ struct CacheGroup {
 
 Kind<Signal> signalName();
 Kind<Variant> filterName(); ///< of a filter or a preset
-/// The same with settings of its own: "asvgf:alpha=0.1:lambdaFetch=nearest".
+/// A filter or preset by name, with settings of its own: "asvgf:alpha=0.1:lambdaFetch=nearest".
 Kind<Variant> filterWithSettings();
 Kind<Assignment> setting(); ///< KEY=VALUE of a setting that there is
 

@@ -11,12 +11,12 @@
 namespace afterglow {
 
 // A folder belongs to one run: to one experiment as it was resolved, and to one part of its frames.
-// Who asks for another run into it is refused, or replaces what is there.
+// Another run into it is refused, or replaces the first.
 
 /// Returns the experiment as experiment.json holds it: the path of a scene's file is absolute.
 nlohmann::ordered_json describe(const Experiment& experiment);
 
-/// What is to be written into a folder.
+/// A run that asks for a folder.
 struct WantedRun {
     nlohmann::ordered_json experiment; ///< as describe() gives it
     Part part = {};
@@ -30,7 +30,7 @@ std::optional<nlohmann::ordered_json> experimentIn(const std::filesystem::path& 
 /// nothing, and the folder need not be there.
 void requireFolderFor(const WantedRun& wanted, const std::filesystem::path& folder);
 
-/// The same for a folder that is to hold folders of runs: UsageError if it holds a run itself.
+/// Throws UsageError if a folder that is to hold folders of runs holds a run itself.
 void requireFolderForRuns(const std::filesystem::path& folder);
 
 /// Makes the folder that of the run. What requireFolderFor() refuses is removed if `fresh`, and so

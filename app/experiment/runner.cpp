@@ -223,7 +223,7 @@ void Run::importVariant(const Variant& variant) {
     finishVariant(variant, table, out, Json::array()); // nobody knows how long they took
 }
 
-// What OpenGL has failed at is not finished, however whole its files look.
+// Marks a variant as finished, unless OpenGL has failed: its files may look whole and be wrong.
 void Run::finishVariant(const Variant& variant, const MetricsTable& table, const OutputFolder& out,
                         const Json& timing) {
     out.writeText("metrics.csv", table.csv({variant.name}));

@@ -9,7 +9,7 @@
 
 namespace afterglow {
 
-/// How one number of a run comes from the values of its frames.
+/// The way in which one number of a run is computed from the values of its frames.
 enum class Aggregation {
     None,
     // Of the whole run:
@@ -71,7 +71,7 @@ struct Metric {
     bool isWhole() const { return unit == "frames" && digits == 0; }
 };
 
-/// All metrics: in the order of summary.json, and in that in which tables show them.
+/// Returns all metrics, in the order of summary.json, which is also that of tables.
 std::span<const Metric> metrics();
 
 /// The metric of this name. Of several signals a metric of frames is also there for each:

@@ -7,14 +7,14 @@
 
 namespace afterglow {
 
-/// What a log was measured in, and what each of its frames has in common with all others.
+/// The conditions under which a log was measured; they are the same for all of its frames.
 struct ProbeRun {
     std::string scene; ///< a scene or an experiment, as it was asked for
     std::uint32_t seed = 0;
     glm::ivec2 size{0}; ///< of the rendered picture, in pixels
 };
 
-/// All that the log holds, for other programs to read. First one fact a line after "# ": the run,
+/// Returns the log as text for other programs. First one fact a line after "# ": the run,
 /// the settings of each pane from the frame on in which they began, the events, and how each pane
 /// answered each of them at each probe. Then comma-separated values (RFC 4180, but with line ends
 /// of "\n"): one row for every frame, probe and pane that has a sample. Numbers are as short as

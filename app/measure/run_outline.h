@@ -10,7 +10,7 @@
 
 namespace afterglow {
 
-/// All that a summary, a sheet and a report need of a run's plan. experiment.json holds it, so that
+/// The part of a run's plan that summary, sheet and report read. experiment.json holds it, so that
 /// nobody who reads a run needs its scene.
 struct RunOutline {
     std::vector<RunEvent> events = {}; ///< in order

@@ -224,7 +224,7 @@ std::string tableOf(const Json& summary, const Json& timing) {
                 shownValue(metric, variants.at(name), timing.at("variants").at(name)));
         }
     }
-    // Of UTF-8, in characters.
+    // Counts characters of UTF-8 text.
     const auto widthOf = [](const std::string& text) {
         return std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; });
     };

@@ -40,7 +40,7 @@ public:
     /// Two frames as they were rendered, and their run's settings. The lights must outlive it.
     struct Request {
         FrameInput now;
-        /// Where it is there and light or geometry have changed since, it costs a second reference.
+        /// A second reference is made if light or geometry have changed since.
         std::optional<FrameInput> before;
         FrameSettings settings;
         int samples; ///< a pixel of a reference, at least 1
@@ -80,7 +80,7 @@ public:
     /// they are done. Once.
     void make(Renderer& renderer, ReferenceStore& store, FrameRange range,
               const std::function<void(int)>& advanced);
-    /// How many references make() would ask the store for.
+    /// Returns the number of references that make() would ask the store for.
     int countFor(FrameRange range) const;
 
     const Truth& of(std::size_t interval) const { return *truths_.at(interval); }

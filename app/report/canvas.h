@@ -20,7 +20,7 @@ struct TextStyle {
     float size = 16.0f; ///< pixels an em
     Weight weight = Weight::Regular;
     glm::u8vec3 color{220};
-    /// Which part of the text is at the given place: 0 its left end, 1 its right.
+    /// Horizontal alignment: 0 puts the text's left end at the given place, 1 its right end.
     float align = 0.0f;
 
     float width(std::string_view text) const { return textWidth(text, size, weight); }

@@ -11,10 +11,10 @@
 
 namespace afterglow {
 
-// What can happen. Frames count from 0; an event shows in its own frame for the first time. Events
-// at frame 0 set the scene up. What lasts from `frame` to `until` is on its way in the frames
-// [frame, until): at frame - 1 it has not begun, in frame until - 1 it has arrived. until = frame +
-// 1 is a jump.
+// Events of a timeline. Frames count from 0; an event shows in its own frame for the first time.
+// Events at frame 0 set the scene up. What lasts from `frame` to `until` is on its way in the
+// frames [frame, until): at frame - 1 it has not begun, in frame until - 1 it has arrived. until =
+// frame + 1 is a jump.
 
 /// Sets a light differently from `frame` on. An empty field stays as it was.
 struct LightEvent {

@@ -43,7 +43,7 @@ struct ActionButton {
     bool lit = false, can = true;
 };
 void actionButton(ViewState& state, const ActionButton& button, float width);
-/// The same beside each other, each as wide as its share of `width`; calm as a quietButton().
+/// Draws action buttons side by side, of equal width, in the style of quietButton().
 void actionRow(ViewState& state, std::span<const ActionButton> buttons, float width);
 
 /// Choices beside each other over the width that is left, of which one is lit. What was pressed.

@@ -7,7 +7,7 @@
 
 namespace afterglow {
 
-/// All images that can be looked at: aovs(), then those of truthImages().
+/// Returns all images that can be looked at: aovs(), then truthImages().
 std::span<const AovInfo> images();
 inline bool isTruth(std::size_t image) {
     return image >= aovs().size();

@@ -51,7 +51,7 @@ struct Group : InspectedGroup {
     const std::map<std::string_view, std::vector<double>>& images;
 };
 
-/// What the tests of a tap found, by gpu::kHistory... code.
+/// Results of the tests of a history tap, by gpu::kHistory... code.
 constexpr std::array kTapResults{"valid", "none", "off screen", "instance", "depth", "normal"};
 
 /// Makes the lines of one group from the facts of a pixel.

@@ -24,8 +24,8 @@ struct InspectedGroup {
     std::vector<InspectedValue> values;
 };
 
-/// All that the last frame holds of one pixel and of its stratum, in one filter, without what the
-/// filter does not make.
+/// The values of one pixel and of its stratum in the last frame of one filter. Images that the
+/// filter does not make are left out.
 struct Inspection {
     glm::ivec2 pixel{0}, stratum{0};
     std::size_t state = 0, signal = 0;

@@ -77,10 +77,10 @@ void setPane(Panes& panes, std::size_t pane, std::string title, const FilterSett
 
 /// "SVGF", or the title of the preset.
 std::string titleOf(const Pane& pane);
-/// The same with what tells the pane from others of its title, or else with what was changed in it:
-/// "Fixed alpha 0.1".
+/// Returns the title with the setting that differs from other panes of that title, or else with the
+/// one that was changed: "Fixed alpha 0.1".
 std::string titleOf(const Panes& panes, std::size_t pane);
-/// The pane as the log of the probes has it: its title and all that its picture is made with.
+/// Returns the pane's entry in the log of the probes: its title, and its filter with all settings.
 ProbePane recordOf(const Panes& panes, std::size_t pane);
 /// The parameters that are not at their defaults: "alpha 0.1, history law frames"; never empty for
 /// a filter that accumulates, since alpha is always told.

@@ -19,7 +19,7 @@ constexpr int kRarest = 100000;           // frames
 constexpr glm::ivec2 kNominal{1280, 720}; // a probe is placed on it before there is a picture
 constexpr std::string_view kAllLights = "*";
 
-// Of kSceneActions.
+// Names of kSceneActions.
 constexpr std::array<std::string_view, kSceneActions.size()> kEventNames{
     "toggle", "dim", "recolor", "animation", "camera-cut", "camera-path"};
 

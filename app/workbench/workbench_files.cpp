@@ -257,7 +257,7 @@ void Workbench::Impl::openExperiment(const std::string& nameOrPath) {
                       (wanted.variants.size() > panes.count ? ", its first four variants" : ""));
 }
 
-// All that a person can set is as it was, but for preferences; histories start anew.
+// Restores the state from before the experiment, but for preferences. Histories start anew.
 void Workbench::Impl::leaveExperiment() {
     notify(state, "Left the experiment " + state.experiment);
     Suspended left = *std::exchange(suspended, {});

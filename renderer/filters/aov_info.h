@@ -9,7 +9,7 @@
 
 namespace afterglow {
 
-/// How the numbers of an image become colors.
+/// A color map for the numbers of an image: the map, its range and its unit.
 struct ImageDisplay {
     int map = gpu::kMapScalar;     ///< gpu::kMap...
     float low = 0.0f, high = 1.0f; ///< see gpu::DebugViewParams

@@ -114,7 +114,7 @@ public:
                   std::initializer_list<Binding> writes) {
         dispatch(glm::ivec3(size, 1), reads, writes);
     }
-    // The same for lists whose length is not known when it is compiled.
+    // Overload for lists whose length is not known at compile time.
     template <class Params>
     void dispatch(glm::ivec2 size, const Params& params, std::span<const Binding> reads,
                   std::span<const Binding> writes) {

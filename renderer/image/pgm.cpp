@@ -38,7 +38,7 @@ public:
         return value;
     }
 
-    /// What follows the one white space that ends the header.
+    /// Returns the bytes after the one white space that ends the header.
     std::string_view rest() {
         if (at_ >= bytes_.size() || !isSpace(bytes_[at_]))
             fail("the header does not end in white space");

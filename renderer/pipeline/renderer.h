@@ -143,9 +143,9 @@ public:
     };
     FilterImage filterImage(std::string_view aov, std::size_t state = 0,
                             std::size_t signal = 0) const;
-    /// What a filter's passes had in the last frame, for those that run again to be inspected: the
-    /// histories of a frame are the previous ones until the next frame begins. A state that has not
-    /// run is std::logic_error.
+    /// Returns the inputs and images of a filter's passes in the last frame, for passes that run
+    /// again to be inspected. Histories of a frame stay in place until the next frame begins.
+    /// std::logic_error if the state has not run.
     struct FilterCall {
         FrameContext context;
         FilterInput in;

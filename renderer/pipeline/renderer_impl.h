@@ -32,7 +32,7 @@ struct Renderer::Impl {
     FrameContext context() { return {.timer = timer, .uniforms = &frame.block()}; }
     enum class Needed { FrameAndFilter, Filter };
     void requireMemoryFor(glm::ivec2 size, Needed what) const;
-    /// All light is reflected by diffuse surfaces yet.
+    /// Returns the factor of a signal: the albedo for all signals, since surfaces are diffuse.
     const GpuTexture& demodulation(std::size_t) const { return targets.surfaces.albedo; }
     static RanFilter ranFilterOf(const FilterSettings& settings);
     SignalFilter& programsOf(const FilterFamily& family);

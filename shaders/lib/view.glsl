@@ -10,7 +10,7 @@ vec3 viewRay(vec2 pixel) {
     return vec3(ndc.x * frame.tanHalfFov * size.x / size.y, ndc.y * frame.tanHalfFov, -1.0);
 }
 
-// The same in world space: a step along it is a step of one meter in depth.
+// Returns the ray in world space; its length is one meter of depth.
 vec3 worldRay(vec2 pixel) {
     return transpose(mat3(frame.viewFromWorld)) * viewRay(pixel);
 }

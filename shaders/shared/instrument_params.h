@@ -26,8 +26,8 @@ struct ProbeParams {
 const uint kHistoryBins = 8u;
 const uint kFateBins = 16u;
 
-// What a pass finds at one texel where it is compiled with INSPECT; see shaders/lib/inspect.glsl.
-// What it does not come to compute there stays 0.
+// Findings of a pass at one texel, where it is compiled with INSPECT: see shaders/lib/inspect.glsl.
+// Values that it does not compute there stay 0.
 
 // One of the four pixels of the frame before that a history is interpolated between. The tests are
 // in the order of the members, and none is made after one that failed.
@@ -43,7 +43,7 @@ struct HistoryTap {
 
 const int kHistoryTaps = 4;
 
-// Of denoise/temporal.comp at a pixel.
+// Findings of denoise/temporal.comp at a pixel.
 struct TemporalFindings {
     ivec2 texel;   // whose they are
     vec2 position; // of its surface in the frame before, pixels, their centers at integers
@@ -70,7 +70,7 @@ struct TemporalFindings {
     vec4 control;
 };
 
-// Of denoise/gradient.comp at a stratum.
+// Findings of denoise/gradient.comp at a stratum.
 struct GradientFindings {
     ivec2 texel;   // the stratum
     float before;  // luminance of the stratum's sample in the frame before

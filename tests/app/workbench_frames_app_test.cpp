@@ -18,13 +18,6 @@ namespace {
 
 constexpr glm::ivec2 kSize = kBenchSize;
 
-double meanOf(const Image<glm::u8vec4>& image) {
-    double sum = 0.0;
-    for (const glm::u8vec4& p : image.pixels())
-        sum += double(p.r) + double(p.g) + double(p.b);
-    return sum / (3.0 * double(image.pixels().size()));
-}
-
 } // namespace
 
 TEST_CASE(
