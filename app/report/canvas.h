@@ -15,6 +15,12 @@ namespace afterglow {
 /// A line through points, drawn with a round pen.
 using Polyline = std::vector<glm::vec2>;
 
+/// Colors of a contact sheet.
+namespace sheet {
+inline constexpr glm::u8vec3 kGround{15, 17, 21}; ///< behind everything
+inline constexpr glm::u8vec3 kBright{236, 239, 244}, kText{190, 196, 206}, kFaint{128, 136, 150};
+} // namespace sheet
+
 /// How text is written.
 struct TextStyle {
     float size = 16.0f; ///< pixels an em

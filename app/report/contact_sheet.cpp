@@ -10,13 +10,12 @@
 #include <stdexcept>
 
 namespace afterglow {
+
+using namespace sheet;
+
 namespace {
 
-constexpr glm::u8vec3 kGround{15, 17, 21};
 constexpr glm::u8vec3 kBlank{24, 27, 33};
-constexpr glm::u8vec3 kBright{236, 239, 244};
-constexpr glm::u8vec3 kText{190, 196, 206};
-constexpr glm::u8vec3 kFaint{128, 136, 150};
 
 constexpr TextStyle kTitle{.size = 30, .weight = Weight::Medium, .color = kBright};
 constexpr TextStyle kSubtitle{.size = 18, .color = kFaint};

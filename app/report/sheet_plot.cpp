@@ -6,16 +6,18 @@
 #include <cstdio>
 
 namespace afterglow {
+
+using namespace sheet;
+
 namespace {
 
 constexpr glm::u8vec3 kGrid{37, 41, 50};
 constexpr glm::u8vec3 kAxis{74, 81, 94};
 constexpr glm::u8vec3 kLevel{112, 120, 134};
-constexpr glm::u8vec3 kGround{15, 17, 21};
 
-constexpr TextStyle kTitle{.size = 18, .weight = Weight::Medium, .color = {236, 239, 244}};
+constexpr TextStyle kTitle{.size = 18, .weight = Weight::Medium, .color = kBright};
 constexpr TextStyle kTick{.size = 14, .color = {150, 158, 171}};
-constexpr TextStyle kLegend{.size = 16, .color = {190, 196, 206}};
+constexpr TextStyle kLegend{.size = 16, .color = kText};
 constexpr TextStyle kMark{.size = 16, .weight = Weight::Medium};
 
 constexpr int kTitleHeight = 42, kAxisHeight = 44;

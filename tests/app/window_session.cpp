@@ -21,13 +21,6 @@ constexpr const char* kMoment = "0.03";
 
 } // namespace
 
-double meanOf(const Picture& picture) {
-    double sum = 0.0;
-    for (const glm::u8vec4& p : picture.pixels())
-        sum += (p.r + p.g + p.b) / 3.0;
-    return sum / double(picture.pixels().size());
-}
-
 double roughnessOf(const Picture& picture) {
     double sum = 0.0;
     for (int y = 0; y < picture.size().y; ++y)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/image/image.h"
+#include "tests/support/compare.h"
 #include "tests/support/temporary_folder.h"
 #include "virtual_display.h"
 
@@ -16,7 +17,6 @@ namespace afterglow::test {
 
 using Picture = Image<glm::u8vec4>;
 
-double meanOf(const Picture& picture); ///< of all channels but alpha, 0 to 255
 /// Mean difference between neighbors in a row: noise, where the picture is otherwise the same.
 double roughnessOf(const Picture& picture);
 bool same(const Picture& a, const Picture& b);

@@ -4,6 +4,7 @@
 #include "app/workbench/workbench.h"
 #include "program.h"
 #include "renderer/scene/procedural.h"
+#include "tests/support/compare.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/sequence.h"
 #include "tests/support/temporary_folder.h"
@@ -14,14 +15,6 @@ namespace afterglow::test {
 
 inline constexpr glm::ivec2 kBenchSize{61, 37};
 inline constexpr double kRound = 0.01; // seconds
-
-/// Returns the mean of red, green and blue over all pixels, in [0, 255].
-inline double meanOf(const Image<glm::u8vec4>& image) {
-    double sum = 0.0;
-    for (const glm::u8vec4& p : image.pixels())
-        sum += double(p.r) + double(p.g) + double(p.b);
-    return sum / (3.0 * double(image.pixels().size()));
-}
 
 /// A workbench in a folder of its own, which renders 61 x 37 pixels.
 struct WorkbenchBench {

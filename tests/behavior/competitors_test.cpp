@@ -5,8 +5,8 @@
 #include "app/measure/response.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/procedural.h"
+#include "tests/behavior/comparisons.h"
 #include "tests/support/gl_fixture.h"
-#include "tests/support/sequence.h"
 
 #include <doctest/doctest.h>
 
@@ -30,16 +30,6 @@ Settings onMergedFrames(Filter filter, Signal signal = Signal::Both) {
     settings.denoiser.alwaysCarrySamples = 1;
     settings.denoiser.temporal.historyLaw = gpu::kHistoryEffective;
     return settings;
-}
-
-void checkEqualOutputs(const Sequence& a, const Sequence& b) {
-    CHECK(differingPixels(a.targets().signals[0].raw.current().read<glm::vec4>(),
-                          b.targets().signals[0].raw.current().read<glm::vec4>()) == 0);
-    CHECK(differingPixels(imageOf(a.targets(), svgf::kMoments).read<glm::vec4>(),
-                          imageOf(b.targets(), svgf::kMoments).read<glm::vec4>()) == 0);
-    CHECK(differingPixels(imageOf(a.targets(), svgf::kColor).read<glm::vec4>(),
-                          imageOf(b.targets(), svgf::kColor).read<glm::vec4>()) == 0);
-    CHECK(differingPixels(a.signal(), b.signal()) == 0);
 }
 
 /// Two filters side by side while the key light blinks and the camera moves.
@@ -105,35 +95,10 @@ ResponseSummary respond(Filter filter, const Event& event) {
     return summary;
 }
 
-struct Settled {
-    double rmse, flicker; ///< against the converged image; mean deviation over time
-};
-
 Settled settle(Filter filter, std::string_view scene, glm::ivec2 size, const Image<float>& truth) {
     Sequence sequence(makeProceduralScene(scene), size, onMergedFrames(filter));
     sequence.run(kSettle);
-    constexpr int kWindow = 16;
-    std::vector<double> sum(truth.pixels().size()), squares(sum.size());
-    Settled result{0.0, 0.0};
-    for (int i = 0; i < kWindow; ++i) {
-        sequence.next();
-        const Image<float> frame = luminanceOf(sequence.signal());
-        double error = 0.0;
-        for (std::size_t k = 0; k < sum.size(); ++k) {
-            const double value = frame.pixels()[k];
-            error += std::pow(value - truth.pixels()[k], 2.0);
-            sum[k] += value;
-            squares[k] += value * value;
-        }
-        result.rmse += std::sqrt(error / double(sum.size())) / kWindow;
-    }
-    for (std::size_t k = 0; k < sum.size(); ++k)
-        result.flicker +=
-            std::sqrt(std::max(0.0, squares[k] / kWindow - std::pow(sum[k] / kWindow, 2.0))) /
-            double(sum.size());
-    MESSAGE(std::string(nameOf(filter)), " in ", std::string(scene), ": settled RMSE ", result.rmse,
-            ", flicker ", result.flicker);
-    return result;
+    return settledOf(sequence, truth);
 }
 
 Image<float> truthOf(std::string_view scene, glm::ivec2 size, int samples) {

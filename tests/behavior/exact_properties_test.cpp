@@ -3,8 +3,8 @@
 
 #include "renderer/pipeline/aov.h"
 #include "renderer/scene/procedural.h"
+#include "tests/behavior/comparisons.h"
 #include "tests/support/gl_fixture.h"
-#include "tests/support/sequence.h"
 
 #include <doctest/doctest.h>
 
@@ -49,14 +49,6 @@ Settings svgfOnMergedFrames(Signal signal = Signal::Both) {
     Settings settings = settingsOf(Filter::Svgf, signal);
     settings.denoiser.alwaysCarrySamples = 1;
     return settings;
-}
-
-void checkEqualOutputs(const Sequence& a, const Sequence& b) {
-    CHECK(differingPixels(a.targets().signals[0].raw.current().read<glm::vec4>(),
-                          b.targets().signals[0].raw.current().read<glm::vec4>()) == 0);
-    CHECK(differingPixels(imageOf(a.targets(), svgf::kMoments).read<glm::vec4>(),
-                          imageOf(b.targets(), svgf::kMoments).read<glm::vec4>()) == 0);
-    CHECK(differingPixels(a.signal(), b.signal()) == 0);
 }
 
 /// A whole scene, with its occluders and lights, under one node that glides and turns.

@@ -3,8 +3,8 @@
 
 #include "app/measure/response.h"
 #include "renderer/scene/procedural.h"
+#include "tests/behavior/comparisons.h"
 #include "tests/support/gl_fixture.h"
-#include "tests/support/sequence.h"
 
 #include <doctest/doctest.h>
 
@@ -54,35 +54,10 @@ ResponseSummary respond(Filter filter, bool switchedOn) {
     return summary;
 }
 
-struct Settled {
-    double rmse, flicker; ///< against the converged image; mean deviation over time
-};
-
 Settled settle(Filter filter, const Image<float>& truth) {
     Sequence sequence(makeProceduralScene("cornell"), kSize, settingsOf(filter));
     sequence.run(kSettle);
-    constexpr int kWindow = 16;
-    std::vector<double> sum(truth.pixels().size()), squares(sum.size());
-    double rmse = 0.0;
-    for (int i = 0; i < kWindow; ++i) {
-        sequence.next();
-        const Image<float> frame = luminanceOf(sequence.signal());
-        double error = 0.0;
-        for (std::size_t k = 0; k < sum.size(); ++k) {
-            const double value = frame.pixels()[k];
-            error += (value - truth.pixels()[k]) * (value - truth.pixels()[k]);
-            sum[k] += value;
-            squares[k] += value * value;
-        }
-        rmse += std::sqrt(error / double(sum.size())) / kWindow;
-    }
-    double flicker = 0.0;
-    for (std::size_t k = 0; k < sum.size(); ++k)
-        flicker +=
-            std::sqrt(std::max(0.0, squares[k] / kWindow - std::pow(sum[k] / kWindow, 2.0))) /
-            double(sum.size());
-    MESSAGE(std::string(nameOf(filter)), ": settled RMSE ", rmse, ", flicker ", flicker);
-    return {rmse, flicker};
+    return settledOf(sequence, truth);
 }
 
 } // namespace

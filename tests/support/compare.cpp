@@ -91,3 +91,14 @@ Comparison compareNumbers(const Numbers& actual, const Numbers& expected, Tolera
 }
 
 } // namespace afterglow::detail
+
+namespace afterglow {
+
+double meanOf(const Image<glm::u8vec4>& picture) {
+    double sum = 0.0;
+    for (const glm::u8vec4& p : picture.pixels())
+        sum += double(p.r) + double(p.g) + double(p.b);
+    return sum / (3.0 * double(picture.pixels().size()));
+}
+
+} // namespace afterglow

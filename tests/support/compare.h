@@ -72,6 +72,9 @@ Comparison compareNumbers(const Numbers& actual, const Numbers& expected, Tolera
 
 } // namespace detail
 
+/// Returns the mean of red, green and blue over all pixels, in [0, 255].
+double meanOf(const Image<glm::u8vec4>& picture);
+
 /// Numbers, GLM vectors, ranges of either, and images; float and double go together.
 template <class Actual, class Expected>
 Comparison compare(const Actual& actual, const Expected& expected, Tolerance tolerance) {

@@ -15,10 +15,21 @@ using namespace afterglow::test;
 using doctest::Approx;
 using Status = LiveResponse::Status;
 
+namespace {
+
+LightBench noisyBench(double alpha, int pixels, std::uint64_t seed = 0) {
+    LightBench bench(PaneModel{.alpha = alpha});
+    bench.noisy = true;
+    bench.pixels = pixels;
+    bench.seed = seed;
+    return bench;
+}
+
+} // namespace
+
 TEST_CASE("the target's standard error is what the noise of the signal makes it") {
     // 0 or 2 in each of 100 pixels: a variance of 1 between them, 0.01 between frames.
-    LightBench bench(PaneModel{.alpha = 0.2});
-    bench.noisy = true;
+    LightBench bench = noisyBench(0.2, 100);
     bench.run(100);
     bench.change(4.0);
     bench.run(24);
@@ -42,10 +53,7 @@ TEST_CASE("not one in a thousand looks at noise alone takes it for a step") {
         CAPTURE(kind.alpha);
         int claims = 0, looks = 0;
         for (std::uint64_t seed = 0; seed < 400; ++seed) {
-            LightBench bench(PaneModel{.alpha = kind.alpha});
-            bench.noisy = true;
-            bench.pixels = kind.pixels;
-            bench.seed = seed;
+            LightBench bench = noisyBench(kind.alpha, kind.pixels, seed);
             bench.run(60);
             bench.change(1.0, "unrelated on");
             for (int n = 0; n < 64; ++n) {
@@ -63,10 +71,7 @@ TEST_CASE("under noise the measured lag is the true one to a frame or two") {
     double ghost = 0.0;
     constexpr int kRuns = 200;
     for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-        LightBench bench(PaneModel{.alpha = 0.2});
-        bench.noisy = true;
-        bench.pixels = 400;
-        bench.seed = seed;
+        LightBench bench = noisyBench(0.2, 400, seed);
         bench.run(60);
         bench.change(0.0);
         bench.run(64);
@@ -86,10 +91,7 @@ TEST_CASE("under noise the measured lag is the true one to a frame or two") {
 TEST_CASE("a single noisy pixel waits until it has frames enough, and then measures") {
     int claims = 0;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        LightBench bench(PaneModel{.alpha = 0.2});
-        bench.noisy = true;
-        bench.pixels = 1;
-        bench.seed = seed;
+        LightBench bench = noisyBench(0.2, 1, seed);
         bench.run(60);
         bench.change(6.0);
         for (int n = 0; n < 5; ++n) {
@@ -105,10 +107,7 @@ TEST_CASE("a single noisy pixel waits until it has frames enough, and then measu
 
 TEST_CASE("a step of a quarter in one pixel is called too noisy, never too small") {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        LightBench bench(PaneModel{.alpha = 0.2});
-        bench.noisy = true;
-        bench.pixels = 1;
-        bench.seed = seed;
+        LightBench bench = noisyBench(0.2, 1, seed);
         bench.run(60);
         bench.change(0.75);
         for (int n = 0; n < 60; ++n) {
@@ -124,9 +123,7 @@ TEST_CASE("a step of a quarter in one pixel is called too noisy, never too small
 }
 
 TEST_CASE("a box in which noise hides the step says so, without a word of pixels") {
-    LightBench bench(PaneModel{.alpha = 0.2});
-    bench.noisy = true;
-    bench.pixels = 9;
+    LightBench bench = noisyBench(0.2, 9);
     bench.run(60);
     bench.change(0.9);
     bench.run(5);
