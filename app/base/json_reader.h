@@ -19,6 +19,9 @@ namespace afterglow {
 /// "file: path: expected this, found that". It must not outlive its document.
 class JsonReader {
 public:
+    /// The name of the document, with which every message begins.
+    std::string_view source() const { return source_; }
+
     /// Throws "expected <wanted>, found <this value>".
     [[noreturn]] void fail(std::string_view wanted) const;
     /// Throws the cause.

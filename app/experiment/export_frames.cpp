@@ -6,6 +6,7 @@
 #include "app/experiment/run_files.h"
 #include "app/measure/truth.h"
 #include "renderer/base/error.h"
+#include "renderer/base/file.h"
 
 #include <algorithm>
 #include <array>
@@ -141,11 +142,12 @@ void exportFrames(const Experiment& experiment, const StagedRun& run, Renderer& 
 
 Experiment readExport(const fs::path& folder) {
     const fs::path file = folder / kAccount;
-    const Json json = readJson(file);
-    if (!json.is_object() || !json.contains("experiment"))
+    const JsonDocument document(readFile(file), file.string());
+    const auto experiment = document.root().find("experiment");
+    if (!experiment)
         throw InputError(file.string() + ": \"experiment\" is missing; afterglow render --export "
                                          "makes such a file");
-    return parseExperiment(json.at("experiment").dump(), file.string());
+    return readExperiment(*experiment);
 }
 
 } // namespace afterglow

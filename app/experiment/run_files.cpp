@@ -80,9 +80,7 @@ void finishRun(const OutputFolder& folder) {
     const fs::path account = path / "experiment.json";
     const std::string text = readFile(account);
     const JsonDocument document(text, account.string());
-    document.root().at("experiment").members();
-    const Experiment experiment =
-        parseExperiment(Json::parse(text).at("experiment").dump(), account.string());
+    const Experiment experiment = readExperiment(document.root().at("experiment"));
     const RunOutline outline = readOutline(document.root(), experiment.frames());
 
     MetricsTable table;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/base/json_reader.h"
 #include "app/scenario/timeline.h"
 #include "app/scenario/variant.h"
 
@@ -43,6 +44,8 @@ struct Experiment {
 /// A scene that is a path (it holds a "/" or ends in .gltf or .glb) is relative to the file's
 /// folder.
 Experiment parseExperiment(std::string_view text, std::string_view source);
+/// Returns the experiment that is a part of another file, such as experiment.json of a run.
+Experiment readExperiment(const JsonReader& json);
 
 /// Returns the text of a file that says the same, with everything spelled out.
 std::string toJson(const Experiment& experiment);

@@ -62,13 +62,13 @@ std::string readName(const JsonReader& json) {
     return name;
 }
 
-std::string readScene(const JsonReader& json, std::string_view source) {
+std::string readScene(const JsonReader& json) {
     const std::string scene = json.text();
     if (scene.empty())
         json.fail("the name of a scene or the path of a file");
     if (!isPath(scene, {".gltf", ".glb"}))
         return scene;
-    return (std::filesystem::path(source).parent_path() / scene).lexically_normal().string();
+    return (std::filesystem::path(json.source()).parent_path() / scene).lexically_normal().string();
 }
 
 Signal readSignal(const JsonReader& json) {
@@ -82,7 +82,7 @@ Filter readFilter(const JsonReader& json) {
     return allFilters()[json.choice(names)];
 }
 
-Variant readVariant(const JsonReader& json, std::string_view source) {
+Variant readVariant(const JsonReader& json) {
     if (json.isText()) {
         try {
             return variantNamed(json.text());
@@ -108,15 +108,16 @@ Variant readVariant(const JsonReader& json, std::string_view source) {
     try {
         settingsOf(variant, Signal::Both);
     } catch (const UsageError& error) {
-        throw InputError(std::string(source) + ": variant " + variant.name + ": " + error.what());
+        throw InputError(std::string(json.source()) + ": variant " + variant.name + ": " +
+                         error.what());
     }
     return variant;
 }
 
-std::vector<Variant> readVariants(const JsonReader& json, std::string_view source) {
+std::vector<Variant> readVariants(const JsonReader& json) {
     std::vector<Variant> variants;
     for (const JsonReader& item : json.list("a list of variants", 1, 1024)) {
-        variants.push_back(readVariant(item, source));
+        variants.push_back(readVariant(item));
         const auto same = std::ranges::find(variants, variants.back().name, &Variant::name);
         if (&*same != &variants.back())
             item.fail("each name once");
@@ -269,15 +270,17 @@ Json describe(const Variant& variant) {
 } // namespace
 
 Experiment parseExperiment(std::string_view text, std::string_view source) {
-    const JsonDocument document(text, source);
-    const JsonReader json = document.root();
+    return readExperiment(JsonDocument(text, source).root());
+}
+
+Experiment readExperiment(const JsonReader& json) {
     json.expectKeys({"name", "description", "scene", "size", "frames", "rate", "seed", "signal",
                      "animated", "variants", "timeline", "referenceSamples", "settledWindow"});
 
     Experiment experiment;
     experiment.name = readName(json.at("name"));
-    experiment.scene = readScene(json.at("scene"), source);
-    experiment.variants = readVariants(json.at("variants"), source);
+    experiment.scene = readScene(json.at("scene"));
+    experiment.variants = readVariants(json.at("variants"));
     experiment.timeline = readTimeline(json);
     if (const auto description = json.find("description"))
         experiment.description = description->text();

@@ -429,9 +429,15 @@ TEST_CASE("frames that cannot be measured are refused by name, and nothing is wr
 
     fs::rename(d.noise / "export.json", d.noise / "kept.json");
     refused(signal, {"noise/export.json"});
-    for (const char* text : {"{", "{}", "[]", R"({"experiment": {"name": "x"}})"}) {
+    const std::pair<const char*, std::string> spoilt[] = {
+        {"{", "noise/export.json:1: this is not JSON"},
+        {"{}", "noise/export.json: \"experiment\" is missing"},
+        {"[]", "noise/export.json: expected an object, found a list of 0"},
+        {R"({"experiment": {"name": "x"}})",
+         "noise/export.json: experiment: \"scene\" is missing"}};
+    for (const auto& [text, cause] : spoilt) {
         d.folder.write("noise/export.json", text);
-        refused(signal, {"noise/export.json: "});
+        refused(signal, {cause});
     }
 }
 
