@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Every filter at every size: medians per pass and frame.
+/// The command bench: measures every filter at every size, with medians per pass and frame.
 class Bench final : public Command {
 public:
     explicit Bench(Options& options);

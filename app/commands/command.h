@@ -14,7 +14,7 @@ public:
     Command(const Command&) = delete;
     Command& operator=(const Command&) = delete;
 
-    /// Does it, once the options have been read.
+    /// Runs the command, once the options have been read.
     virtual void run(HiddenContextFactory hiddenContext) = 0;
 };
 

@@ -5,7 +5,7 @@ namespace afterglow {
 
 namespace {
 
-/// Every variant of experiments, measured.
+/// The command experiment: measures every variant of experiments.
 class ExperimentCommand final : public Command {
 public:
     explicit ExperimentCommand(Options& options) {

@@ -35,8 +35,8 @@ void requireFreeName(const std::string& name) {
         throw UsageError(fmt::format("--name {}: this is a name of our own; choose another", name));
 }
 
-/// The frames of another denoiser, measured beside our filters as a run in its folder. Those that
-/// were imported there before, of the same experiment, stay in it.
+/// The command import-frames: measures the frames of another denoiser beside our filters. Frames
+/// that were imported into the same run before stay in it.
 class ImportFrames final : public Command {
 public:
     explicit ImportFrames(Options& options);
@@ -88,7 +88,7 @@ Examples:
   afterglow import-frames out/noise out/mine --name mine --out out/score)");
 }
 
-/// The experiment of the export, with our own variants.
+/// Returns the experiment of the export, with our own variants.
 Experiment ImportFrames::experiment() const {
     Experiment experiment = readExport(exported_);
     experiment.referenceSamples = samples_.value_or(experiment.referenceSamples);
@@ -100,8 +100,8 @@ Experiment ImportFrames::experiment() const {
     return experiment;
 }
 
-/// The external variants of the run: those that were imported into its folder before, as far as
-/// their measures still hold, and the new one.
+/// Returns the external variants of the run: those that were imported into its folder before, as
+/// far as their measures still hold, and the new one.
 std::vector<Variant> ImportFrames::externalVariants(const Experiment& experiment,
                                                     const StagedRun& run,
                                                     const ReferenceMaker& maker) const {

@@ -21,7 +21,7 @@ struct Line {
 };
 using Lines = std::vector<Line>;
 
-/// Lines of name and description, of rows that have both.
+/// Returns one line per row: its name and its description.
 template <class Rows>
 Lines described(const Rows& rows) {
     Lines lines;
@@ -110,7 +110,7 @@ constexpr std::array kKinds{ListKind{"scenes", [] { return described(proceduralS
                             ListKind{"settings", settingLines},
                             ListKind{"metrics", metricLines}};
 
-/// One line each of what there is to choose from: name and meaning.
+/// The command list: prints names and meanings of scenes, filters, settings and other choices.
 class List final : public Command {
 public:
     explicit List(Options& options) {

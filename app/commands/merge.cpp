@@ -8,7 +8,7 @@ namespace afterglow {
 
 namespace {
 
-/// The parts of a run as one run.
+/// The command merge: puts the parts of a run together.
 class Merge final : public Command {
 public:
     explicit Merge(Options& options) {

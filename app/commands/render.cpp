@@ -20,8 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "key=off@8", "key=on@16", "fill=0.5" (power, from frame 0 on). The event sets both `on` and
-/// `power`: what the text leaves out is as the scene has it.
+/// Parses "key=off@8", "key=on@16" or "fill=0.5" (power, from frame 0 on). The event sets both `on`
+/// and `power`: a part that the text leaves out is as in the scene.
 LightEvent lightEventFrom(const std::string& text) {
     auto [light, value] = assignment().read(text);
     LightEvent event{.light = light, .on = true, .power = 1.0f};
@@ -57,7 +57,7 @@ Aovs aovsFrom(const std::string& text) {
     return aovs;
 }
 
-/// The frames of a scene, or its converged image.
+/// The command render: writes frames of a scene, or its converged image.
 class Render final : public Command {
 public:
     explicit Render(Options& options);

@@ -9,7 +9,7 @@ namespace afterglow {
 
 namespace {
 
-/// The page of a run, or of a folder of runs, anew.
+/// The command report: makes the page of a run, or of a folder of runs, anew.
 class Report final : public Command {
 public:
     explicit Report(Options& options) {

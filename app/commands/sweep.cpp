@@ -5,7 +5,7 @@ namespace afterglow {
 
 namespace {
 
-/// "alpha=0.1,0.2" as the setting with each of its values.
+/// Parses "alpha=0.1,0.2" into the setting and its values.
 std::vector<Assignment> pointsFrom(const std::string& text) {
     const auto [key, values] = assignment().read(text);
     std::vector<Assignment> points;
@@ -14,7 +14,7 @@ std::vector<Assignment> pointsFrom(const std::string& text) {
     return points;
 }
 
-/// Experiments with every variant at each value of a setting.
+/// The command sweep: measures every variant at each value of a setting.
 class Sweep final : public Command {
 public:
     explicit Sweep(Options& options) {

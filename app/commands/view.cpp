@@ -9,7 +9,7 @@ namespace afterglow {
 
 namespace {
 
-/// The window.
+/// The command view: opens the window.
 class View final : public Command {
 public:
     explicit View(Options& options);

@@ -61,8 +61,8 @@ struct Metric {
     double level = 0.0;          ///< of TimeTo and OwnTimeTo
     std::string_view group = {}; ///< in the report's table of variants; empty: it is not there
     unsigned shown = 0;          ///< a union of Places
-    /// If that metric has a number, null says of this one that it was never reached; else that it
-    /// was not measured.
+    /// The metric that tells two meanings of null apart: where it has a number this one was never
+    /// reached, elsewhere it was not measured.
     std::string_view reachedIf = {};
     /// Sheet and report show it only where that metric was not measured.
     std::string_view insteadOf = {};

@@ -44,7 +44,7 @@ std::string fact(std::string text) {
     return "# " + text + "\n";
 }
 
-/// By index of the log's frames; empty where none is claimed.
+/// A response by index of the log's frames; empty where none is claimed.
 using Curve = std::vector<std::optional<double>>;
 
 /// Fills the curve of a pane at a probe, and adds a line for every change of light that it met.

@@ -34,11 +34,11 @@ struct Probe {
 
 // `image` is a size in pixels, at least 1 x 1. What lies outside it is moved to its edge.
 
-/// Exactly that pixel. The noise of one pixel hides most changes of light.
+/// Returns a probe of that pixel alone. The noise of one pixel hides most changes of light.
 Probe probeAt(glm::ivec2 pixel, glm::ivec2 image);
 /// Pixels along each edge of the box that a click sets.
 constexpr int kClickBox = 9;
-/// The box of kClickBox x kClickBox pixels around a pixel, moved to lie inside the picture.
+/// Returns a probe of kClickBox x kClickBox pixels around a pixel, moved to lie inside the picture.
 Probe probeAround(glm::ivec2 pixel, glm::ivec2 image);
 /// The box with these pixels in two opposite corners, whichever they are; both belong to it.
 Probe probeBetween(glm::ivec2 corner, glm::ivec2 opposite, glm::ivec2 image);

@@ -18,7 +18,7 @@ Mask foregroundOf(const Renderer& renderer);
 /// brighter than all it shines on that its going out would be all there is to measure.
 Image<glm::vec4> litRadiance(const Renderer& renderer, std::size_t state = 0);
 
-/// References draw other random numbers than the frames of the seed that are compared with them.
+/// Returns the seed of references: their random numbers differ from those of the frames.
 constexpr std::uint32_t referenceSeed(std::uint32_t seed) {
     return seed ^ 0x9e3779b9u;
 }
@@ -45,8 +45,8 @@ private:
 class ReferenceStore {
 public:
     explicit ReferenceStore(ReferenceMaker maker, std::optional<ReferenceCache> cache = {});
-    /// With the cache in the default folder. Where there can be none, a warning says so, and that
-    /// is all.
+    /// Returns a store with the cache in the default folder, or without one, and with a warning, if
+    /// that folder cannot be made.
     static ReferenceStore withDefaultCache(ReferenceMaker maker);
 
     /// A reference that is there already.
@@ -110,7 +110,8 @@ private:
     Reference reference_;
 };
 
-/// Does a task at one go. `advanced` is told of every portion of samples as it is done.
+/// Returns a reference, made in one go. `advanced` is told of every portion of samples as it is
+/// done.
 Reference converge(Renderer& renderer, const FrameInput& seen, const FrameInput& world,
                    const FrameSettings& settings, int samples,
                    const std::function<void(int)>& advanced = {}, ReferenceStore* store = nullptr);

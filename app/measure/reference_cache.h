@@ -29,8 +29,7 @@ struct Reference {
     bool cached = false;       ///< it was there already
 };
 
-/// Everything that a reference is made from. The scene and the lights of both frames must outlive
-/// it.
+/// The inputs of a reference. The scene and the lights of both frames must outlive it.
 struct ReferenceRequest {
     const Scene& scene;
     glm::ivec2 size;

@@ -50,8 +50,8 @@ std::string htmlText(std::string_view text) {
     return escaped;
 }
 
-/// JSON that cannot end the element it stands in, or open a comment there: "<" occurs in strings
-/// alone, where an escape says the same.
+/// Returns JSON that cannot end the element it stands in, or open a comment there: "<" occurs in
+/// strings alone, where an escape says the same.
 std::string scriptJson(const Json& data) {
     const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string escaped;

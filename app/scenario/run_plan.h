@@ -28,7 +28,7 @@ struct RunEvent {
 /// The number of frames in which the trail of what moves is looked for.
 inline constexpr int kTrailFrames = 16;
 
-/// Everything of a run that is known before a frame is rendered.
+/// The plan of a run, which is known before a frame is rendered.
 struct RunPlan {
     std::vector<Interval> intervals;
     std::vector<RunEvent> events; ///< changes of what is seen or how it is lit, in order

@@ -12,7 +12,8 @@ namespace afterglow {
 
 struct FrameInput;
 
-/// One frame of a scene: all that it is rendered from but filters and settings, and its marks.
+/// One frame of a scene: number, time, camera, lights and marks. Filters and settings are not part
+/// of it.
 struct SceneFrame {
     std::uint32_t frame = 0; ///< its number: its noise follows from it
     double seconds = 0.0;    ///< scene time

@@ -8,7 +8,7 @@
 
 namespace afterglow {
 
-/// Frames one after the other, as they were given or are to be. Their numbers rise by one.
+/// A recorded sequence of frames. Their numbers rise by one.
 struct Take {
     std::string name{};
     std::vector<SceneFrame> frames{};

@@ -22,12 +22,12 @@ public:
         std::uint32_t seed = 0; ///< of the whole run
         std::optional<SceneFrame> before = {};
     };
-    /// Takes the place of an earlier frame. `settings` are those of that frame; its filters are
-    /// those that ran. `samples` a pixel, at least 1, of each reference. The watched renderer must
-    /// have rendered; else std::logic_error. Copies what it needs.
+    /// Freezes a frame, in place of an earlier one. `settings` are those of that frame; its filters
+    /// are those that ran. `samples` a pixel, at least 1, of each reference. The watched renderer
+    /// must have rendered; else std::logic_error. Copies what it needs.
     void begin(const Renderer& watched, Frozen frame, const FrameSettings& settings, int samples);
-    /// Traces for about so long, and one sample at least; nothing once it is done. Returns whether
-    /// it has just become done.
+    /// Traces for about that time, and one sample at least; nothing once it is done. Returns
+    /// whether it has just become done.
     bool advance(double milliseconds);
     void end(); ///< forgets the frame
 
@@ -36,9 +36,9 @@ public:
     double progress() const { return isDone() ? 1.0 : making_ ? making_->progress() : 0.0; }
     int samples() const { return samples_; } ///< a pixel, of each reference; 0 without a frame
 
-    /// One of truthImages(), of a filter of the frozen frame: RGBA32F, per pixel or per stratum.
-    /// Null before it is done, and where the filter did not run or has no such thing. Lives until
-    /// the frame is forgotten.
+    /// Returns one of truthImages() for a filter of the frozen frame: RGBA32F, per pixel or per
+    /// stratum. Null before the truth is done, and where the filter did not run or does not make
+    /// the image it is compared with. Lives until the frame is forgotten.
     const GpuTexture* image(std::size_t image, std::size_t state, std::size_t signal = 0);
     /// Root mean square error of the filter's light on surfaces (signal times albedo) against that
     /// of the reference, over red, green and blue. Empty before it is done, where the filter did

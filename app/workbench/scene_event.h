@@ -27,7 +27,7 @@ bool isLightAction(Action action); ///< of one light: Command::index is its slot
 /// Returns what the action will do: "toggle key", "camera cut".
 std::string nameOf(const Command& event, std::span<const std::string> lightNames);
 
-/// Does the action, and remembers it as what repeats. Nothing happens without such a light.
+/// Performs the action, and keeps it as the one that repeats. Does nothing without such a light.
 void letHappen(ViewState& state, const Command& event);
 
 /// Returns the tint that turns light of this color (linear rgb) to another hue and leaves its

@@ -93,7 +93,7 @@ double secondsUntilFrame(const Transport& t, double secondsSinceLastFrame);
 /// Where a take has ended there is none: a std::logic_error.
 SceneFrame nextFrame(Transport& t, const SceneFrame& live);
 
-/// After each rendered frame. A std::logic_error if nextFrame() was not asked before it.
+/// Records that a frame was rendered. A std::logic_error if nextFrame() was not asked before it.
 void frameRendered(Transport& t, double wallSeconds);
 
 void togglePause(Transport& t); ///< at the end of a take: plays it again

@@ -151,7 +151,8 @@ void show(ViewState& state, Shown::Kind kind, std::size_t index = 0);
 void setProbe(ViewState& state, std::size_t index, const Probe& probe, glm::ivec2 image);
 void clearProbes(ViewState& state);
 void toggleFreeze(ViewState& state); ///< also pauses; leaves images of the truth when it ends
-/// Its camera and lights become the person's; an experiment's are left for those of before it.
+/// Ends a take and keeps its camera and lights. Those of an experiment are dropped for those that
+/// were set before it.
 void stopTake(ViewState& state);
 void toggleRepeat(ViewState& state);
 void notify(ViewState& state, std::string text, bool isError = false);

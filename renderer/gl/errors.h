@@ -27,9 +27,10 @@ bool hasContextFailed();
 /// Throws Error if it has.
 void requireSoundContext();
 
-/// For initializeGl(): a context begins.
+/// Starts to count errors anew for a context; initializeGl() calls it.
 void beginGlErrors();
-/// For the callback of initializeGl(), on any thread.
+/// Counts an error that the driver has reported. The callback of initializeGl() calls it, on any
+/// thread.
 void noteReportedGlError(std::string_view message);
 
 /// "348.0 MiB"

@@ -21,7 +21,8 @@ class FindingsBuffer {
 public:
     using Region = PixelReadback::Region<Findings>;
 
-    /// Empties it, for a texel of an image of that size; one outside is std::logic_error.
+    /// Clears the findings for a texel of an image of that size. std::logic_error if the texel lies
+    /// outside.
     Binding start(glm::ivec2 texel, glm::ivec2 size) {
         if (glm::any(glm::lessThan(texel, glm::ivec2(0))) ||
             glm::any(glm::greaterThanEqual(texel, size)))
