@@ -25,7 +25,7 @@ FOLDERS = {
     "renderer/base": "errors, files, hashes, names",
     "renderer/image": "pictures, files, metrics",
     "renderer/scene": "glTF, procedural scenes, poses",
-    "renderer/bvh": "boxes, built and traced",
+    "renderer/bvh": "the tree over all triangles",
     "renderer/gl": "contexts, programs, textures",
     "renderer/resources": "who owns pixels",
     "renderer/passes": "who owns programs",

@@ -158,7 +158,7 @@ Json describe(const Scene& scene, const SceneStats& stats) {
             {"instances", stats.instances},
             {"lights", lights},
             {"light_triangles", stats.lightTriangles},
-            {"bvh_nodes", stats.bvhNodes},
+            {"bvh_records", stats.bvhRecords},
             {"bvh_build_ms", stats.bvhBuildMilliseconds}};
 }
 

@@ -236,9 +236,9 @@ void panelHeader(const PanelContext& panel) {
     ImGui::PopStyleColor();
     const GlInfo& gl = panel.bench.gl();
     tooltip(
-        fmt::format("{}\n{} instances\n{} nodes of the bounding volume hierarchy, built in "
+        fmt::format("{}\n{} instances\n{} records of the bounding volume hierarchy, built in "
                     "{:.1f} ms\n{:.1f} MiB of images\n{}\nOpenGL {}",
-                    state.sceneName, stats.instances, stats.bvhNodes, stats.bvhBuildMilliseconds,
+                    state.sceneName, stats.instances, stats.bvhRecords, stats.bvhBuildMilliseconds,
                     double(panel.bench.imageBytes()) / (1024.0 * 1024.0), gl.renderer, gl.version));
     panelSwitches(state);
     ImGui::Dummy({0.0f, 0.1f * em()});

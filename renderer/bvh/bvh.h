@@ -4,42 +4,76 @@
 #include "renderer/bvh/aabb.h"
 #include "shared/bvh.h"
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace afterglow {
 
-/// A bounding volume hierarchy over boxes. It does not know what is in them.
-struct Bvh {
-    /// nodes[0] is the root; it is there even if nothing else is. Boxes in nodes are a little
-    /// larger than what they hold: by some 2e-7 of the largest coordinate of all.
-    std::vector<gpu::BvhNode> nodes;
-    std::vector<std::uint32_t> order; ///< leaf ranges index this, this indexes the boxes
-    Aabb bounds;                      ///< of everything
+/// One record of the tree that shaders walk: a gpu::BvhNode or a gpu::BvhTriangle.
+struct BvhRecord {
+    std::array<std::uint32_t, 12> words{};
+
+    BvhRecord() = default;
+    BvhRecord(const gpu::BvhNode& node) : words(std::bit_cast<decltype(words)>(node)) {}
+    BvhRecord(const gpu::BvhTriangle& triangle) : words(std::bit_cast<decltype(words)>(triangle)) {}
+
+    bool isTriangle() const { return (words[3] & gpu::kBvhTriangle) != 0; }
+    gpu::BvhNode node() const { return std::bit_cast<gpu::BvhNode>(words); }
+    gpu::BvhTriangle triangle() const { return std::bit_cast<gpu::BvhTriangle>(words); }
+    bool operator==(const BvhRecord&) const = default;
 };
 
-/// Builds from boxes whose numbers are finite, at most 2^28 of them; Error if there are more.
-/// Binned surface area heuristic (Wald, "On fast Construction of SAH-based Bounding Volume
-/// Hierarchies", 2007). Leaves hold at most `maxLeafSize` boxes, in [1, kBvhMaxLeafSize], and fewer
-/// where the heuristic says that splitting pays. No path has more than kBvhMaxDepth nodes, whatever
-/// the boxes: many identical ones are split by halves.
-Bvh buildBvh(std::span<const Aabb> boxes, std::uint32_t maxLeafSize = gpu::kBvhMaxLeafSize);
+/// A record of a triangle that no ray meets: what stands where a node has no child.
+BvhRecord nullRecord();
 
-/// How many inner nodes the longest path from `root` has.
-std::uint32_t depthOf(std::span<const gpu::BvhNode> nodes, std::uint32_t root = 0);
+/// A bounding volume hierarchy of four children a node. It does not know what is in its leaves.
+struct Bvh {
+    BvhRecord root;                 ///< a node, even if nothing is in the tree
+    std::vector<BvhRecord> records; ///< of all below the root: whole blocks of gpu::kBvhWidth
+    Aabb bounds;                    ///< of everything; empty if nothing is in the tree
+};
 
-inline bool isLeaf(std::uint32_t link) {
-    return (link & gpu::kBvhLeaf) != 0;
-}
-inline std::uint32_t leafFirst(std::uint32_t link) {
-    return link & gpu::kBvhFirstMask;
-}
-inline std::uint32_t leafCount(std::uint32_t link) {
-    return (link >> gpu::kBvhCountShift) & gpu::kBvhCountMask;
-}
-inline std::uint32_t leafLink(std::uint32_t first, std::uint32_t count) {
-    return gpu::kBvhLeaf | (count << gpu::kBvhCountShift) | first;
-}
+struct BvhOptions {
+    std::uint32_t firstBlock = 0; ///< the block that records begin with: links count from it
+    /// The largest number of leaves in one place of a block: 1 to kBvhMaxLeafSize. More than 1 only
+    /// if leaves are triangles, which are linked one to the next.
+    std::uint32_t maxLeafSize = 4;
+    std::uint32_t maxDepth = 40; ///< of nodes on a path; holds 2^maxDepth leaves at least
+    unsigned threads = 0;        ///< 0: as many as the machine has. The tree is the same for each.
+};
+inline constexpr std::uint32_t kBvhMaxLeafSize = 4;
+
+/// Builds a tree over leaves whose boxes have numbers that are finite: binned surface area
+/// heuristic (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007), the
+/// largest child split again until there are four. `leaves` are triangles, or the roots of other
+/// trees with maxLeafSize 1. Throws Error if there are more than 24 bits of blocks can count.
+Bvh buildBvh(std::span<const Aabb> boxes, std::span<const BvhRecord> leaves,
+             const BvhOptions& options = {});
+
+/// Returns the box of a triangle's corners.
+Aabb boundsOf(const gpu::BvhTriangle& triangle);
+
+/// Fits all nodes below and with `root` to triangles that have moved; the tree keeps its shape.
+/// `records` begin with block `firstBlock`. Returns the box of everything.
+Aabb refitBvh(BvhRecord& root, std::span<BvhRecord> records, std::uint32_t firstBlock);
+
+/// Returns a node over up to four boxes, of which empty ones are no children. Boxes are enlarged by
+/// 7e-7 of the largest coordinate, and outwards to the steps of the node's grid.
+gpu::BvhNode packNode(const std::array<Aabb, gpu::kBvhWidth>& children, std::uint32_t block);
+
+/// Returns the box of child `child` as a walk sees it; empty if there is none.
+Aabb childBox(const gpu::BvhNode& node, std::uint32_t child);
+
+/// Returns how many nodes the longest path from a root has.
+std::uint32_t depthOf(const BvhRecord& root, std::span<const BvhRecord> records,
+                      std::uint32_t firstBlock = 0);
+
+/// Returns the cost that the surface area heuristic expects of a ray: records fetched, given that
+/// it meets the root's box.
+double sahCost(const BvhRecord& root, std::span<const BvhRecord> records,
+               std::uint32_t firstBlock = 0);
 
 } // namespace afterglow

@@ -1,61 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/bvh/scene_bvh.h"
 
+#include "renderer/base/error.h"
+#include "renderer/base/parallel.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <map>
+#include <string>
 
 namespace afterglow {
 
 namespace {
 
-constexpr std::size_t kTexelsPerEntry = 4;
+/// Paths below a root, and from the root of everything to it. Together kBvhMaxDepth.
+constexpr std::uint32_t kTreeDepth = 40, kJoinDepth = gpu::kBvhMaxDepth - kTreeDepth;
 
-static_assert(sizeof(gpu::BvhNode) == kTexelsPerEntry * sizeof(glm::uvec4));
-static_assert(sizeof(gpu::BvhInstance) == kTexelsPerEntry * sizeof(glm::uvec4));
-static_assert(sizeof(gpu::BvhTriangle) == 3 * sizeof(glm::uvec4));
+constexpr std::size_t kChunk = 16384; ///< triangles that a thread prepares at a time
 
-Aabb boundsOf(const gpu::BvhTriangle& triangle) {
-    Aabb box;
-    box.include(triangle.v0);
-    box.include(triangle.v1);
-    box.include(triangle.v2);
-    return box;
+glm::vec3 transformed(const glm::dmat4& matrix, glm::vec3 p) {
+    return glm::vec3(matrix * glm::dvec4(p, 1.0));
 }
 
-/// Appends a mesh's triangles, with their corners moved by a matrix and rounded once.
-void appendTriangles(std::vector<gpu::BvhTriangle>& to, const Mesh& mesh, std::uint32_t instance,
-                     const glm::dmat4& matrix) {
-    const auto corner = [&](std::uint32_t vertex) {
-        return glm::vec3(matrix * glm::dvec4(mesh.positions[vertex], 1.0));
-    };
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const glm::uvec3 v = mesh.triangles[i];
-        to.push_back({.v0 = corner(v.x),
-                      .instance = instance,
-                      .v1 = corner(v.y),
-                      .triangle = i,
-                      .v2 = corner(v.z),
-                      .pad = 0});
+/// A mesh at one place among the leaves of a tree.
+struct Placed {
+    const Mesh* mesh;
+    std::uint32_t instance;
+    glm::dmat4 matrix;
+    std::size_t first; ///< leaf of its first triangle
+};
+
+/// A tree over meshes, with their corners moved by a matrix and rounded once.
+Bvh treeOf(std::span<const Placed> meshes, std::size_t triangles, std::uint32_t firstBlock) {
+    std::vector<BvhRecord> leaves(triangles);
+    std::vector<Aabb> boxes(triangles);
+    for (const Placed& placed : meshes) {
+        const auto& corners = placed.mesh->triangles;
+        parallelFor((corners.size() + kChunk - 1) / kChunk, hardwareThreads(), [&](std::size_t c) {
+            for (std::size_t i = c * kChunk; i < std::min((c + 1) * kChunk, corners.size()); ++i) {
+                const auto corner = [&](int k) {
+                    return transformed(placed.matrix, placed.mesh->positions[corners[i][k]]);
+                };
+                const gpu::BvhTriangle triangle{.v0 = corner(0),
+                                                .instance = gpu::kBvhTriangle | placed.instance,
+                                                .v1 = corner(1),
+                                                .triangle = std::uint32_t(i),
+                                                .v2 = corner(2),
+                                                .next = 0};
+                leaves[placed.first + i] = triangle;
+                boxes[placed.first + i] = boundsOf(triangle);
+            }
+        });
     }
-}
-
-/// The world box of a box in object space: of its corners, and a little more, since rays are
-/// carried into object space with rounding and the box is rounded too.
-Aabb worldBox(const Aabb& box, const glm::dmat4& worldFromObject) {
-    Aabb world;
-    for (int i = 0; i < 8; ++i)
-        world.include(
-            glm::vec3(worldFromObject * glm::dvec4((i & 1) != 0 ? box.max.x : box.min.x,
-                                                   (i & 2) != 0 ? box.max.y : box.min.y,
-                                                   (i & 4) != 0 ? box.max.z : box.min.z, 1.0)));
-    constexpr float kRounding = 8.0f * std::numeric_limits<float>::epsilon();
-    const glm::vec3 largest = glm::max(glm::abs(world.min), glm::abs(world.max));
-    const glm::vec3 margin(kRounding * std::max({largest.x, largest.y, largest.z}));
-    return {world.min - margin, world.max + margin};
+    return buildBvh(boxes, leaves, {.firstBlock = firstBlock, .maxDepth = kTreeDepth});
 }
 
 bool isFinite(const glm::dmat4& m) {
@@ -66,131 +64,142 @@ bool isFinite(const glm::dmat4& m) {
     return true;
 }
 
-gpu::BvhInstance record(const SceneBvh::Moving& moving) {
-    const glm::mat4 rows(glm::transpose(moving.objectFromWorld));
-    return {.objectFromWorldX = rows[0],
-            .objectFromWorldY = rows[1],
-            .objectFromWorldZ = rows[2],
-            .instance = moving.instance,
-            .root = moving.root,
-            .pad0 = 0,
-            .pad1 = 0};
+std::uint32_t blocksOf(std::size_t records) {
+    return std::uint32_t(records / gpu::kBvhWidth);
 }
 
 } // namespace
 
 SceneBvh::SceneBvh(const Scene& scene) {
+    if (scene.instances.size() > gpu::kBvhInstanceMask)
+        throw Error("a scene holds at most " + std::to_string(gpu::kBvhInstanceMask) +
+                    " instances, but there are " + std::to_string(scene.instances.size()));
     const Pose pose = poseAt(scene, 0.0);
     const std::vector<bool> moves = movingNodes(scene);
 
-    std::vector<gpu::BvhTriangle> world;
+    std::vector<Placed> still;
+    std::vector<std::uint32_t> movers;
+    std::size_t triangles = 0;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
-        if (!moves[instance.node])
-            appendTriangles(world, scene.meshes[instance.mesh], i,
-                            glm::dmat4(pose.worldFromNode[instance.node]));
-    }
-    addTree(world, nullptr);
-
-    struct MeshTree {
-        std::uint32_t root;
-        Aabb bounds;
-    };
-    std::map<std::uint32_t, MeshTree> trees; // by mesh
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        if (!moves[instance.node])
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        if (mesh.triangles.empty())
             continue;
-        auto found = trees.find(instance.mesh);
-        if (found == trees.end()) {
-            std::vector<gpu::BvhTriangle> local;
-            appendTriangles(local, scene.meshes[instance.mesh], gpu::kBvhNone, glm::dmat4(1.0));
-            MeshTree tree{};
-            tree.root = addTree(local, &tree.bounds);
-            found = trees.emplace(instance.mesh, tree).first;
+        if (moves[instance.node]) {
+            movers.push_back(i);
+            continue;
         }
-        if (!found->second.bounds.empty())
-            moving_.push_back({.instance = i,
-                               .node = instance.node,
-                               .root = found->second.root,
-                               .bounds = found->second.bounds});
+        still.push_back({&mesh, i, glm::dmat4(pose.worldFromNode[instance.node]), triangles});
+        triangles += mesh.triangles.size();
     }
-    if (triangles_.empty())
-        triangles_.push_back(
-            {.v0 = {}, .instance = gpu::kBvhNone, .v1 = {}, .triangle = 0, .v2 = {}, .pad = 0});
+    records_.assign(gpu::kBvhWidth, nullRecord());
+    still_ = treeOf(still, triangles, blocksOf(records_.size()));
+    records_.insert(records_.end(), still_.records.begin(), still_.records.end());
+    still_.records = {};
+    records_[gpu::kBvhRoot] = still_.root;
+    addMoving(scene, movers);
     refresh(pose);
 }
 
-std::uint32_t SceneBvh::addTree(std::span<const gpu::BvhTriangle> triangles, Aabb* bounds) {
-    std::vector<Aabb> boxes;
-    boxes.reserve(triangles.size());
-    for (const gpu::BvhTriangle& triangle : triangles)
-        boxes.push_back(boundsOf(triangle));
-    const Bvh tree = buildBvh(boxes);
-
-    const auto root = std::uint32_t(nodes_.size());
-    const auto first = std::uint32_t(triangles_.size());
-    const auto moved = [&](std::uint32_t link) {
-        return isLeaf(link) ? leafLink(first + leafFirst(link), leafCount(link)) : root + link;
-    };
-    for (gpu::BvhNode node : tree.nodes) {
-        node.link0 = moved(node.link0);
-        node.link1 = moved(node.link1);
-        nodes_.push_back(node);
+void SceneBvh::addMoving(const Scene& scene, std::span<const std::uint32_t> instances) {
+    std::map<std::uint32_t, std::size_t> trees; // by mesh
+    for (const std::uint32_t i : instances) {
+        const std::uint32_t mesh = scene.instances[i].mesh;
+        const auto [found, isNew] = trees.emplace(mesh, meshTrees_.size());
+        if (isNew) {
+            const Placed local{&scene.meshes[mesh], 0, glm::dmat4(1.0), 0};
+            meshTrees_.push_back({treeOf({&local, 1}, local.mesh->triangles.size(), 0)});
+        }
+        moving_.push_back({.instance = i,
+                           .node = scene.instances[i].node,
+                           .mesh = found->second,
+                           .block = blocksOf(records_.size()),
+                           .root = {},
+                           .bounds = {}});
+        records_.resize(records_.size() + meshTrees_[found->second].bvh.records.size(),
+                        nullRecord());
     }
-    for (const std::uint32_t i : tree.order)
-        triangles_.push_back(triangles[i]);
-    if (bounds != nullptr)
-        *bounds = tree.bounds;
-    return root;
+    joinBlock_ = blocksOf(records_.size());
+    // Each node of a tree over n trees has two children at least.
+    if (!moving_.empty())
+        records_.resize(records_.size() + gpu::kBvhWidth * moving_.size(), nullRecord());
+    if (blocksOf(records_.size()) > gpu::kBvhMaxBlocks)
+        throw Error("the trees of the scene need " + std::to_string(blocksOf(records_.size())) +
+                    " blocks; links count " + std::to_string(gpu::kBvhMaxBlocks));
+}
+
+/// Returns whether anything has changed.
+bool SceneBvh::place(Moving& moving, const glm::mat4& worldFromObject) {
+    if (moving.placed && moving.worldFromObject == worldFromObject)
+        return false;
+    moving.placed = true;
+    moving.worldFromObject = worldFromObject;
+    moving.bounds = {};
+    const glm::dmat4 matrix(worldFromObject);
+    if (!isFinite(matrix) || !isFinite(glm::inverse(matrix)))
+        return true;
+
+    const Bvh& tree = meshTrees_[moving.mesh].bvh;
+    const std::span<BvhRecord> own(records_.data() + moving.block * gpu::kBvhWidth,
+                                   tree.records.size());
+    const auto put = [&](const BvhRecord& from, BvhRecord& to) {
+        if (from.isTriangle()) {
+            gpu::BvhTriangle triangle = from.triangle();
+            if (triangle.instance == nullRecord().triangle().instance)
+                return;
+            triangle.v0 = transformed(matrix, triangle.v0);
+            triangle.v1 = transformed(matrix, triangle.v1);
+            triangle.v2 = transformed(matrix, triangle.v2);
+            triangle.instance = gpu::kBvhTriangle | moving.instance;
+            triangle.next += triangle.next != 0 ? moving.block * gpu::kBvhWidth : 0;
+            to = triangle;
+        } else {
+            gpu::BvhNode node = from.node();
+            node.block += moving.block;
+            to = node;
+        }
+    };
+    for (std::size_t i = 0; i < own.size(); ++i)
+        put(tree.records[i], own[i]);
+    put(tree.root, moving.root);
+    moving.bounds = refitBvh(moving.root, own, moving.block);
+    return true;
 }
 
 void SceneBvh::refresh(const Pose& pose) {
-    std::vector<Aabb> boxes;
-    std::vector<std::uint32_t> present; // indices into moving_, one for each box
-    for (std::uint32_t i = 0; i < moving_.size(); ++i) {
-        assert(moving_[i].node < pose.worldFromNode.size());
-        const glm::dmat4 worldFromObject(pose.worldFromNode[moving_[i].node]);
-        const glm::dmat4 objectFromWorld = glm::inverse(worldFromObject);
-        if (!isFinite(worldFromObject) || !isFinite(objectFromWorld))
-            continue;
-        moving_[i].objectFromWorld = objectFromWorld;
-        boxes.push_back(worldBox(moving_[i].bounds, worldFromObject));
-        present.push_back(i);
+    changed_.clear();
+    for (Moving& moving : moving_) {
+        assert(moving.node < pose.worldFromNode.size());
+        if (place(moving, pose.worldFromNode[moving.node]))
+            changed_.push_back(
+                {moving.block * gpu::kBvhWidth, meshTrees_[moving.mesh].bvh.records.size()});
     }
-    top_ = buildBvh(boxes, 1);
-    for (std::uint32_t& i : top_.order)
-        i = present[i];
-    params_ = {.movingInstances = std::uint32_t(present.size()),
-               .topRoot = std::uint32_t(moving_.size()),
-               .pad0 = 0,
-               .pad1 = 0};
-    packInstances();
+    if (changed_.empty())
+        return;
+    join();
+    changed_.insert(changed_.begin(), {0, gpu::kBvhWidth});
+    changed_.push_back(
+        {joinBlock_ * gpu::kBvhWidth, records_.size() - joinBlock_ * gpu::kBvhWidth});
 }
 
-void SceneBvh::packInstances() {
-    // A top-level tree with one instance a leaf has one node less than instances, but at least one.
-    const std::size_t entries = moving_.size() + std::max<std::size_t>(moving_.size(), 2) - 1;
-    assert(top_.nodes.size() <= entries - moving_.size());
-    instanceTexels_.assign(entries * kTexelsPerEntry, glm::uvec4(0));
-    const auto put = [&](std::size_t entry, const auto& value) {
-        std::memcpy(&instanceTexels_[entry * kTexelsPerEntry], &value, sizeof(value));
+void SceneBvh::join() {
+    std::vector<Aabb> boxes;
+    std::vector<BvhRecord> roots;
+    const auto add = [&](const Aabb& bounds, const BvhRecord& root) {
+        if (bounds.empty())
+            return;
+        boxes.push_back(bounds);
+        roots.push_back(root);
     };
-    for (std::size_t i = 0; i < moving_.size(); ++i)
-        put(i, record(moving_[i]));
-
-    const auto packed = [&](std::uint32_t link) {
-        if (!isLeaf(link))
-            return params_.topRoot + link;
-        // The empty leaf beside a lone instance becomes that instance: a walk need not know of it.
-        return leafLink(top_.order.empty() ? 0 : top_.order[leafFirst(link)], 1);
-    };
-    for (std::size_t i = 0; i < top_.nodes.size(); ++i) {
-        gpu::BvhNode node = top_.nodes[i];
-        node.link0 = packed(node.link0);
-        node.link1 = packed(node.link1);
-        put(params_.topRoot + i, node);
-    }
+    add(still_.bounds, still_.root);
+    for (const Moving& moving : moving_)
+        add(moving.bounds, moving.root);
+    const Bvh tree = buildBvh(boxes, roots,
+                              {.firstBlock = joinBlock_, .maxLeafSize = 1, .maxDepth = kJoinDepth});
+    records_[gpu::kBvhRoot] = tree.root;
+    assert(joinBlock_ * gpu::kBvhWidth + tree.records.size() <= records_.size());
+    std::copy(tree.records.begin(), tree.records.end(),
+              records_.begin() + joinBlock_ * gpu::kBvhWidth);
 }
 
 } // namespace afterglow

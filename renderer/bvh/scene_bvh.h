@@ -11,59 +11,60 @@
 
 namespace afterglow {
 
-/// All triangles of a scene, ready to be walked by bvh_trace.h and shaders/lib/bvh_trace.glsl.
+/// All triangles of a scene, ready to be walked by shaders/lib/bvh_trace.glsl.
 ///
-/// What never moves is one tree in world space. Each mesh that moves has a tree in its own space,
-/// and a small top-level tree over the moving instances is made anew each frame.
+/// Everything is in world space, in one array of records. What never moves is one tree, made once.
+/// Each instance that moves has a tree of its own, whose shape is that of its mesh and whose boxes
+/// are fitted anew to its triangles where they are in this frame; a small tree joins them all with
+/// that of the rest. A walk knows of none of this.
 class SceneBvh {
 public:
     /// Builds everything, at the pose of second 0. The scene is complete and is not needed
-    /// afterwards.
+    /// afterwards. Throws Error if there are more triangles than links can count.
     explicit SceneBvh(const Scene& scene);
 
-    /// Puts the moving instances where they are in this pose. Changes instanceTexels() and
-    /// params(), and nothing else. An instance whose matrix has no inverse is not hit by any ray.
+    /// Puts the moving instances where they are in this pose. The number of records stays. An
+    /// instance whose matrix has no inverse is not hit by any ray.
     void refresh(const Pose& pose);
 
-    /// Trees of triangles, one after the other; the static one is first, with its root at 0.
-    std::span<const gpu::BvhNode> nodes() const { return nodes_; }
+    /// The tree: blocks of gpu::kBvhWidth, of which the first has the root at gpu::kBvhRoot.
+    std::span<const BvhRecord> records() const { return records_; }
 
-    /// What the leaves of nodes() hold. Never empty: a scene without triangles has one of no size.
-    std::span<const gpu::BvhTriangle> triangles() const { return triangles_; }
+    /// Consecutive records.
+    struct Span {
+        std::size_t first = 0, count = 0;
+    };
+    /// Returns the records that the last refresh() changed, in order.
+    std::span<const Span> changed() const { return changed_; }
 
-    /// Entries of four texels: first one gpu::BvhInstance for each moving instance, then the
-    /// gpu::BvhNodes of the top-level tree, whose inner links are entries and whose leaves hold one
-    /// instance each. Never empty. Always of the same size.
-    std::span<const glm::uvec4> instanceTexels() const { return instanceTexels_; }
+    const BvhRecord& root() const { return records_[gpu::kBvhRoot]; }
+    std::size_t movingInstances() const { return moving_.size(); }
 
-    const gpu::BvhParams& params() const { return params_; }
-
-    /// Whether any instance moves. If not, refresh() changes nothing.
-    bool moves() const { return !moving_.empty(); }
-
-    /// A moving instance as the CPU sees it.
+private:
+    struct MeshTree {
+        Bvh bvh; ///< in the space of the mesh; its blocks count from 0
+    };
     struct Moving {
         std::uint32_t instance = 0; ///< index into Scene::instances
         std::uint32_t node = 0;     ///< index into Scene::nodes
-        std::uint32_t root = 0;     ///< index into nodes()
-        Aabb bounds;                ///< of its mesh, in the mesh's own space
-        glm::dmat4 objectFromWorld{1.0};
+        std::size_t mesh = 0;       ///< index into meshTrees_
+        std::uint32_t block = 0;    ///< where its records begin
+        BvhRecord root;
+        Aabb bounds;                 ///< in the world; empty: it cannot be hit
+        glm::mat4 worldFromObject{}; ///< of root and bounds
+        bool placed = false;         ///< they are there
     };
-    std::span<const Moving> moving() const { return moving_; }
 
-    /// The top-level tree: its leaves are ranges of topOrder(), which indexes moving().
-    const Bvh& top() const { return top_; }
+    void addMoving(const Scene& scene, std::span<const std::uint32_t> instances);
+    bool place(Moving& moving, const glm::mat4& worldFromObject);
+    void join();
 
-private:
-    std::uint32_t addTree(std::span<const gpu::BvhTriangle> triangles, Aabb* bounds);
-    void packInstances();
-
-    std::vector<gpu::BvhNode> nodes_;
-    std::vector<gpu::BvhTriangle> triangles_;
+    std::vector<BvhRecord> records_;
+    Bvh still_; ///< its root and bounds; the records have become ours
+    std::vector<MeshTree> meshTrees_;
     std::vector<Moving> moving_;
-    Bvh top_;
-    std::vector<glm::uvec4> instanceTexels_;
-    gpu::BvhParams params_{};
+    std::uint32_t joinBlock_ = 0; ///< where the tree over all trees begins
+    std::vector<Span> changed_;
 };
 
 } // namespace afterglow

@@ -87,6 +87,13 @@ public:
     void write(const Values& values) {
         write(std::span<const std::ranges::range_value_t<Values>>(values));
     }
+    /// Replaces values from number `first` on. More than there is room for is std::logic_error, and
+    /// so is a value that is not whole texels.
+    template <class T>
+    void writeAt(std::size_t first, std::span<const T> values) {
+        checkValues(sizeof(T), values.size());
+        buffer_.write(values, first * sizeof(T));
+    }
 
     template <class T>
     std::vector<T> read() const {

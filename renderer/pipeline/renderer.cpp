@@ -24,7 +24,7 @@ void Renderer::setScene(Scene scene) {
                          .instances = impl_->scene.instances.size(),
                          .lights = impl_->scene.lights.size(),
                          .lightTriangles = gpuSide.lightTriangleCount(),
-                         .bvhNodes = gpuSide.bvh().nodes().size(),
+                         .bvhRecords = gpuSide.bvh().records().size(),
                          .bvhBuildMilliseconds = gpuSide.bvhBuildMilliseconds()};
     impl_->previousPose.reset();
     impl_->converging.reset();
@@ -107,7 +107,6 @@ void Renderer::Impl::begin(const FrameInput& input, const FrameSettings& setting
     u.lightTriangleCount = sceneGpu->lightTriangleCount();
     u.aoRadius = settings.lighting.aoRadius * sceneGpu->extent();
     u.signalClamp = settings.lighting.signalClamp;
-    u.bvh = sceneGpu->bvh().params();
     frame.begin(input.camera, targets.size);
     targets.counters.clear();
 }
@@ -186,7 +185,7 @@ void Renderer::Impl::trace(const FrameContext& outer, const Surfaces& surfaces,
     for (std::size_t i = 0; i < signals.size(); ++i) {
         FrameContext context = outer.forSignal(signals.size() > 1 ? signals[i].name : "");
         lighting.run(context, *sceneGpu, {surfaces, seeds},
-                     {raw(targets.signals[i]), targets.counters}, signals[i].rays);
+                     {raw(targets.signals[i]), targets.rays, targets.counters}, signals[i].rays);
     }
 }
 

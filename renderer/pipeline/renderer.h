@@ -33,7 +33,7 @@ struct FrameStats {
 
 struct SceneStats {
     std::size_t triangles = 0, instances = 0, lights = 0, lightTriangles = 0;
-    std::size_t bvhNodes = 0;
+    std::size_t bvhRecords = 0;
     double bvhBuildMilliseconds = 0.0;
 };
 

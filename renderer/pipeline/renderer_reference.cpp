@@ -9,7 +9,6 @@ namespace afterglow {
 void Renderer::Impl::placeSurfaces(FrameContext& context, double seconds) {
     const Pose pose = poseAt(scene, seconds);
     sceneGpu->update(scene, pose, pose);
-    frame.uniforms.bvh = sceneGpu->bvh().params();
     frame.upload();
     if (targets.placed.empty())
         targets.placed = Surfaces(targets.size, "placed ");

@@ -61,7 +61,7 @@ RenderTargets::RenderTargets(glm::ivec2 imageSize)
       depth(cleared("depth", PixelFormat::Depth32F, size)), surfaces(size),
       previousVisibility(cleared("visibility (previous)", PixelFormat::RGBA32UI, size)),
       previousGuides(cleared("guides (previous)", PixelFormat::RGBA32F, size)),
-      seeds("seeds", PixelFormat::R32UI, size),
+      seeds("seeds", PixelFormat::R32UI, size), rays(size),
       owners(cleared("owners", PixelFormat::R32UI, strata)),
       claims(cleared("claims", PixelFormat::RG32UI, strata)),
       samples(cleared("samples", PixelFormat::RGBA32UI, strata)),
@@ -117,15 +117,15 @@ std::vector<const GpuTexture*> RenderTargets::all() const {
 }
 
 std::size_t RenderTargets::bytes() const {
-    std::size_t sumOfBytes = 0;
+    std::size_t sumOfBytes = rays.bytes();
     for (const GpuTexture* texture : all())
         sumOfBytes += texture->bytes();
     return sumOfBytes;
 }
 
 ImageBytes imageBytes(std::span<const ImageDecl> filter) {
-    // Whole strata and tiles: what a small picture takes is what a large one takes.
-    static constexpr glm::ivec2 kSmall{24, 24};
+    // Whole strata, tiles and segments: what a small picture takes is what a large one takes.
+    static constexpr glm::ivec2 kSmall{48, 48};
     const auto perPixel = [](std::size_t bytes) {
         return double(bytes) / double(kSmall.x * kSmall.y);
     };

@@ -3,6 +3,7 @@
 
 #include "renderer/gl/framebuffer.h"
 #include "renderer/resources/image_set.h"
+#include "renderer/resources/ray_list.h"
 #include "renderer/resources/surfaces.h"
 
 #include <array>
@@ -69,6 +70,7 @@ struct RenderTargets {
     GpuTexture previousVisibility, previousGuides; ///< of the frame before
     History seeds;
     std::vector<SignalTargets> signals;
+    RayList rays; ///< of the kind that is traced
 
     GpuTexture owners;  ///< R32UI, strata: keys of forward projection
     GpuTexture claims;  ///< RG32UI, strata: what became of the samples before they were merged

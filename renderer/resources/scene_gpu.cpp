@@ -52,11 +52,8 @@ SceneGpu::SceneGpu(const Scene& scene)
     uploadMeshes(scene);
     uploadMaterials(scene);
     collectEmitters(scene, rest);
-    bvhNodes = TexelBuffer("bvh nodes", bvh_.nodes().size_bytes());
-    bvhNodes.write(bvh_.nodes());
-    bvhTriangles = TexelBuffer("bvh triangles", bvh_.triangles().size_bytes());
-    bvhTriangles.write(bvh_.triangles());
-    bvhInstances = TexelBuffer("bvh instances", bvh_.instanceTexels().size_bytes());
+    bvhRecords = TexelBuffer("bvh records", bvh_.records().size_bytes());
+    bvhRecords.write(bvh_.records());
     update(scene, rest, rest);
     setLightScales({});
 }
@@ -196,7 +193,8 @@ void SceneGpu::update(const Scene& scene, const Pose& pose, const Pose& previous
     instances.write(records_);
     placeEmitters(scene, pose);
     bvh_.refresh(pose);
-    bvhInstances.write(bvh_.instanceTexels());
+    for (const SceneBvh::Span span : bvh_.changed())
+        bvhRecords.writeAt(span.first, bvh_.records().subspan(span.first, span.count));
 }
 
 void SceneGpu::setLightScales(std::span<const glm::vec3> scales) {

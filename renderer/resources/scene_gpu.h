@@ -44,8 +44,8 @@ public:
 
     TexelBuffer vertices, triangles, instances, materials; ///< shared/scene.h
     TexelBuffer lightTriangles, lightScales;
-    TexelBuffer bvhNodes, bvhTriangles, bvhInstances; ///< shared/bvh.h
-    GpuTexture noiseTile; ///< R32F, 128x128, [0, 1): the blue-noise tile
+    TexelBuffer bvhRecords; ///< shared/bvh.h
+    GpuTexture noiseTile;   ///< R32F, 128x128, [0, 1): the blue-noise tile
 
 private:
     /// An emissive triangle in its object's space, and its share of the nominal power of all

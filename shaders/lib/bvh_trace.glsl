@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Rays against all triangles of the scene: the nearest hit, or whether there is any.
 //
-// A walk in the manner of Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs",
-// HPG 2009, over what renderer/bvh/scene_bvh.h makes: one
-// tree of what stands still, then the trees of the moving instances whose boxes the ray meets.
-// Triangles are seen from both sides. renderer/bvh/bvh_trace.cpp does the same in double precision.
+// The tree has four quantized children a node (shared/bvh.h); renderer/bvh/ makes it. Triangles are
+// seen from both sides. Tests hold the walk against two others, of which one is Embree's.
 //
-// Whoever includes this has declared `bvhParams` before: a BvhParams, as a member of a uniform
-// block without an instance name or by `#define bvhParams frame.bvh`. It binds three buffers by
-// their names.
+// Whoever includes this binds one buffer by its name.
 
 #include "lib/fetch.glsl"
 #include "shared/bvh.h"
 
-Uint4Buffer(bvhNodes);     // BvhNode: 4 texels
-Uint4Buffer(bvhTriangles); // BvhTriangle: 3 texels
-Uint4Buffer(bvhInstances); // BvhInstance, then BvhNode: 4 texels
+Uint4Buffer(bvhRecords); // BvhNode or BvhTriangle: 3 texels
 
 struct BvhHit {
     float t;           // in units of the ray's direction
@@ -30,7 +24,10 @@ const float kBvhSmallestDirection = 1e-18;
 
 // Widens the far end of a slab interval by more than its rounding, with a division of 2.5 ulp.
 // Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
-const float kBvhFarRounding = 1.000001;
+const float kBvhFarRounding = 1.000002;
+
+// The key of a child that the ray does not meet: above that of any other.
+const int kBvhMissed = 0x7f000000;
 
 vec3 bvhInverse(vec3 direction) {
     vec3 smallest = mix(vec3(kBvhSmallestDirection), vec3(-kBvhSmallestDirection),
@@ -38,148 +35,137 @@ vec3 bvhInverse(vec3 direction) {
     return 1.0 / mix(direction, smallest, lessThan(abs(direction), vec3(kBvhSmallestDirection)));
 }
 
-// Where the ray enters and leaves a box, within [0, tMax]. It misses if the first is greater.
-vec2 bvhClip(vec3 origin, vec3 inverse, vec4 xy, vec2 z, float tMax) {
-    vec3 a = (vec3(xy.x, xy.z, z.x) - origin) * inverse;
-    vec3 b = (vec3(xy.y, xy.w, z.y) - origin) * inverse;
-    vec3 low = min(a, b), high = max(a, b);
-    return vec2(max(max(low.x, low.y), max(low.z, 0.0)),
-                min(min(high.x, high.y), min(high.z, tMax)) * kBvhFarRounding);
+// A ray and how it is held against planes.
+struct BvhRay {
+    vec3 origin, direction;
+    vec3 inverse;
+    bvec3 backward; // against the axis: the upper side of a box is the near one
+};
+
+// A node's grid along the ray: plane k of an axis is met at k * step + start.
+struct BvhGrid {
+    vec3 step, start;
+    uvec3 near, far; // the planes of four children each, a byte a child
+};
+
+BvhGrid bvhGrid(BvhRay ray, uvec4 t0, uvec4 t1, uvec4 t2) {
+    vec3 cell = uintBitsToFloat(((t0.www >> uvec3(0u, 8u, 16u)) & 255u) << 23u);
+    uvec3 low = t1.xyz, high = uvec3(t1.w, t2.xy);
+    return BvhGrid(cell * ray.inverse, (uintBitsToFloat(t0.xyz) - ray.origin) * ray.inverse,
+                   mix(low, high, ray.backward), mix(high, low, ray.backward));
 }
 
-// The children of a node that the ray meets: the nearer one, or kBvhNone; then the other, or
-// kBvhNone.
-uvec2 bvhChildren(vec3 origin, vec3 inverse, float tMax, uvec4 child0xy, uvec4 child1xy,
-                  uvec4 childrenZ, uvec2 links) {
-    vec4 z = uintBitsToFloat(childrenZ);
-    vec2 in0 = bvhClip(origin, inverse, uintBitsToFloat(child0xy), z.xy, tMax);
-    vec2 in1 = bvhClip(origin, inverse, uintBitsToFloat(child1xy), z.zw, tMax);
-    uvec2 met = uvec2(in0.x <= in0.y ? links.x : kBvhNone, in1.x <= in1.y ? links.y : kBvhNone);
-    bool swap = met.x == kBvhNone || (met.y != kBvhNone && in1.x < in0.x);
-    return swap ? met.yx : met;
+// The key by which children are visited: the bits of the distance at which the ray enters, with the
+// child's place in the last two; kBvhMissed and above if it does not meet the box within [0, tMax].
+//
+// Distances are compared as the integers that their bits are: for floats that are not negative the
+// order is the same, an entry is clamped at 0, and an exit below 0 stays below 0. llvmpipe takes
+// three instructions for the minimum of two floats, and one for that of two integers.
+int bvhKey(BvhGrid grid, int child, int tMax) {
+    uvec3 near = (grid.near >> uint(8 * child)) & 255u, far = (grid.far >> uint(8 * child)) & 255u;
+    ivec3 enters = floatBitsToInt(vec3(ivec3(near)) * grid.step + grid.start);
+    ivec3 leaves = floatBitsToInt(vec3(ivec3(far)) * grid.step + grid.start);
+    int entry = max(max(enters.x, enters.y), max(enters.z, 0));
+    int leave = min(min(leaves.x, leaves.y), min(leaves.z, tMax));
+    bool met = entry <= floatBitsToInt(intBitsToFloat(leave) * kBvhFarRounding);
+    return ((met ? entry : kBvhMissed) & ~3) | child;
 }
 
-// Makes `hit` the triangle if it is met before hit.t. Signed volumes on the three edges: both
-// triangles of a shared edge find the same number for it, negated, so no ray slips between them.
-// Davidovic et al., "3D Rasterization: A Bridge between Rasterization and Ray Casting", GI 2012.
-void bvhIntersect(uint index, uint movingInstance, vec3 origin, vec3 direction, inout BvhHit hit) {
-    int texel = int(index) * 3;
-    uvec4 t0 = fetchBuffer(bvhTriangles, texel);
-    uvec4 t1 = fetchBuffer(bvhTriangles, texel + 1);
-    uvec4 t2 = fetchBuffer(bvhTriangles, texel + 2);
-    vec3 v0 = uintBitsToFloat(t0.xyz) - origin;
-    vec3 v1 = uintBitsToFloat(t1.xyz) - origin;
-    vec3 v2 = uintBitsToFloat(t2.xyz) - origin;
+void bvhOrder(inout int a, inout int b) {
+    int least = min(a, b);
+    b = max(a, b);
+    a = least;
+}
+
+// Makes `hit` the triangle if it is one and is met before hit.t. Signed volumes on the three edges:
+// both triangles of a shared edge find the same number for it, negated, so no ray slips between
+// them. Davidovic et al., "3D Rasterization: A Bridge between Rasterization and Ray Casting", GI
+// 2012.
+void bvhIntersect(BvhRay ray, bool isTriangle, uvec4 t0, uvec4 t1, uvec4 t2, inout BvhHit hit) {
+    vec3 v0 = uintBitsToFloat(t0.xyz) - ray.origin;
+    vec3 v1 = uintBitsToFloat(t1.xyz) - ray.origin;
+    vec3 v2 = uintBitsToFloat(t2.xyz) - ray.origin;
     vec3 e0 = v2 - v0, e1 = v0 - v1, e2 = v1 - v2;
-    float u = dot(cross(e0, v2 + v0), direction);
-    float v = dot(cross(e1, v0 + v1), direction);
-    float w = dot(cross(e2, v1 + v2), direction);
+    float u = dot(cross(e0, v2 + v0), ray.direction);
+    float v = dot(cross(e1, v0 + v1), ray.direction);
+    float w = dot(cross(e2, v1 + v2), ray.direction);
     vec3 normal = cross(e0, e1);
-    float slope = dot(normal, direction);
+    float slope = dot(normal, ray.direction);
     float t = dot(normal, v0) / slope;
     bool inside = min(min(u, v), w) >= 0.0 || max(max(u, v), w) <= 0.0;
-    if (inside && slope != 0.0 && t > 0.0 && t < hit.t) {
+    if (isTriangle && inside && slope != 0.0 && t > 0.0 && t < hit.t) {
         hit.t = t;
-        hit.instance = min(t0.w, movingInstance); // one of them is kBvhNone
+        hit.instance = t0.w & kBvhInstanceMask;
         hit.triangle = t1.w;
         hit.barycentrics = vec2(u, v) / (u + v + w);
     }
 }
 
-// Walks one tree of triangles. With `any`, it ends at the first hit.
-//
-// Nodes are visited in rounds of two between leaves, and stores to the stack are not conditional: a
-// lane that waits at a leaf does harmless work. A software rasterizer makes a branch of each lane's
-// masked store, and mispredicted ones took a third of the time with a loop until every lane has a
-// leaf.
-void bvhWalk(uint root, uint movingInstance, vec3 origin, vec3 direction, bool any,
-             inout BvhHit hit) {
-    const int kNodesPerRound = 2;
-    vec3 inverse = bvhInverse(direction);
-    uint stack[kBvhMaxDepth + 2u]; // an end, the deferred, and one above them that is not kept
-    int deferred = 1;
-    stack[0] = kBvhNone;
-    uint link = root;
-    while (link != kBvhNone) {
-        for (int i = 0; i < kNodesPerRound; ++i) {
-            bool inner = (link & kBvhLeaf) == 0u;
-            int texel = inner ? int(link) * 4 : 0;
-            uvec2 children =
-                bvhChildren(origin, inverse, hit.t, fetchBuffer(bvhNodes, texel),
-                            fetchBuffer(bvhNodes, texel + 1), fetchBuffer(bvhNodes, texel + 2),
-                            fetchBuffer(bvhNodes, texel + 3).xy);
-            bool push = inner && children.y != kBvhNone;
-            bool pop = inner && children.x == kBvhNone;
-            stack[deferred] = children.y;
-            deferred += int(push) - int(pop);
-            uint deferredLink = stack[deferred];
-            link = pop ? deferredLink : (inner ? children.x : link);
-        }
-        if ((link & kBvhLeaf) != 0u && link != kBvhNone) {
-            uint item = link & kBvhFirstMask;
-            uint end = item + ((link >> kBvhCountShift) & kBvhCountMask);
-            while (item < end) {
-                bvhIntersect(item, movingInstance, origin, direction, hit);
-                ++item;
-            }
-            bool done = any && hit.instance != kBvhNone;
-            link = done ? kBvhNone : stack[--deferred];
-        }
-    }
-}
-
-// One loop serves the still tree and the moving ones, so that the walk is in the program only once.
+// One step is the same for every lane, whether its record is a node or a triangle, so that no lane
+// waits for others; what does not apply is not used. Stores to the stack are not conditional: a
+// software rasterizer makes a branch of each lane's masked store.
 bool bvhTrace(vec3 origin, vec3 direction, float tMax, bool any, out BvhHit hit) {
-    hit = BvhHit(tMax, kBvhNone, 0u, vec2(0.0));
+    hit = BvhHit(tMax, kBvhNoInstance, 0u, vec2(0.0));
     vec3 inverse = bvhInverse(direction);
-    uint stack[kBvhMaxDepth + 1u]; // of the top-level tree
-    int deferred = 1;
-    stack[0] = kBvhNone;
-    uint link = bvhParams.movingInstances > 0u ? bvhParams.topRoot : kBvhNone;
+    BvhRay ray = BvhRay(origin, direction, inverse, lessThan(inverse, vec3(0.0)));
+    uint stack[kBvhMaxDepth + 2u]; // an end, the deferred, and one above them that is not kept
+    stack[0] = 0u;
+    int top = 1;
+    uint group = 0u; // the deferred ones that come next
+    uint record = kBvhRoot;
+    while (record != 0u) {
+        int texel = int(record * kBvhTexelsPerRecord);
+        uvec4 t0 = fetchBuffer(bvhRecords, texel);
+        uvec4 t1 = fetchBuffer(bvhRecords, texel + 1);
+        uvec4 t2 = fetchBuffer(bvhRecords, texel + 2);
+        bool isTriangle = (t0.w & kBvhTriangle) != 0u;
 
-    uint root = 0u;
-    uint movingInstance = kBvhNone;
-    vec3 localOrigin = origin, localDirection = direction;
-    while (root != kBvhNone) {
-        bvhWalk(root, movingInstance, localOrigin, localDirection, any, hit);
-        if (any && hit.instance != kBvhNone)
-            link = kBvhNone;
-        root = kBvhNone;
-        while ((link & kBvhLeaf) == 0u) {
-            int texel = int(link) * 4;
-            uvec2 children = bvhChildren(origin, inverse, hit.t, fetchBuffer(bvhInstances, texel),
-                                         fetchBuffer(bvhInstances, texel + 1),
-                                         fetchBuffer(bvhInstances, texel + 2),
-                                         fetchBuffer(bvhInstances, texel + 3).xy);
-            link = children.x;
-            if (children.y != kBvhNone)
-                stack[deferred++] = children.y;
-            if (link == kBvhNone)
-                link = stack[--deferred];
+        BvhGrid grid = bvhGrid(ray, t0, t1, t2);
+        int limit = floatBitsToInt(hit.t);
+        int k0 = bvhKey(grid, 0, limit), k1 = bvhKey(grid, 1, limit);
+        int k2 = bvhKey(grid, 2, limit), k3 = bvhKey(grid, 3, limit);
+        bvhOrder(k0, k1);
+        bvhOrder(k2, k3);
+        bvhOrder(k0, k2);
+        bvhOrder(k1, k3);
+        bvhOrder(k1, k2);
+        uint deferred = uint(k1 < kBvhMissed) + uint(k2 < kBvhMissed) + uint(k3 < kBvhMissed);
+        uint block = t2.z;
+        uint ofNode = (block << kBvhGroupBlockShift) | (deferred << kBvhGroupCountShift) |
+                      (uint(k3 & 3) << 4u) | (uint(k2 & 3) << 2u) | uint(k1 & 3);
+
+        bvhIntersect(ray, isTriangle, t0, t1, t2, hit);
+
+        bool goesDown = !isTriangle && k0 < kBvhMissed;
+        bool defers = goesDown && deferred > 0u;
+        uint next = isTriangle ? t2.w : (goesDown ? 4u * block + uint(k0 & 3) : 0u);
+        stack[top] = group;
+        top += int(defers && group != 0u);
+        group = defers ? ofNode : group;
+        if (next == 0u) {
+            bool empty = group == 0u;
+            top -= int(empty);
+            group = empty ? stack[top] : group;
+            next = group == 0u ? 0u : 4u * (group >> kBvhGroupBlockShift) + (group & 3u);
+            uint left = ((group >> kBvhGroupCountShift) & 3u) - 1u;
+            uint places = (group & 63u) >> 2u;
+            group = left == 0u || group == 0u
+                        ? 0u
+                        : (group & ~255u) | (left << kBvhGroupCountShift) | places;
         }
-        if (link != kBvhNone) { // a leaf, which holds one instance
-            int texel = int(link & kBvhFirstMask) * 4;
-            mat3x4 objectFromWorld = mat3x4(uintBitsToFloat(fetchBuffer(bvhInstances, texel)),
-                                            uintBitsToFloat(fetchBuffer(bvhInstances, texel + 1)),
-                                            uintBitsToFloat(fetchBuffer(bvhInstances, texel + 2)));
-            uvec2 record = fetchBuffer(bvhInstances, texel + 3).xy;
-            localOrigin = vec4(origin, 1.0) * objectFromWorld;
-            localDirection = vec4(direction, 0.0) * objectFromWorld;
-            movingInstance = record.x;
-            root = record.y;
-            link = stack[--deferred];
-        }
+        record = any && hit.instance != kBvhNoInstance ? 0u : next;
     }
-    return hit.instance != kBvhNone;
+    return hit.instance != kBvhNoInstance;
 }
 
-// Whether anything is at origin + t * direction with t in (0, tMax).
+// Returns whether anything is at origin + t * direction with t in (0, tMax).
 bool occluded(vec3 origin, vec3 direction, float tMax) {
     BvhHit hit;
     return bvhTrace(origin, direction, tMax, true, hit);
 }
 
-// The nearest such thing. Without one, it returns false and `hit` has t = tMax and no instance.
+// Finds the nearest such thing. Without one, it returns false and `hit` has t = tMax and no
+// instance.
 bool closestHit(vec3 origin, vec3 direction, float tMax, out BvhHit hit) {
     return bvhTrace(origin, direction, tMax, false, hit);
 }

@@ -26,6 +26,7 @@
 #define Uint2Texture(name) layout(rg32ui) readonly uniform uimage2D name
 #define UintTexture(name) layout(r32ui) readonly uniform uimage2D name
 #define Uint4Buffer(name) layout(rgba32ui) readonly uniform uimageBuffer name
+#define UintBuffer(name) layout(r32ui) readonly uniform uimageBuffer name
 
 #define fetch(name, p) imageLoad(name, p)
 #define fetchBuffer(name, index) imageLoad(name, index)
@@ -41,6 +42,7 @@
 #define Uint2Texture(name) uniform usampler2D name
 #define UintTexture(name) uniform usampler2D name
 #define Uint4Buffer(name) uniform usamplerBuffer name
+#define UintBuffer(name) uniform usamplerBuffer name
 
 #define fetch(name, p) texelFetch(name, p, 0)
 #define fetchBuffer(name, index) texelFetch(name, index)

@@ -7,5 +7,3 @@
 layout(std140, binding = kFrameBlock) uniform Frame {
     FrameUniforms frame;
 };
-
-#define bvhParams frame.bvh // lib/bvh_trace.glsl asks for it

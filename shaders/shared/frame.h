@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "shared/bvh.h"
 #include "shared/interop.h"
 SHARED_BEGIN
 
@@ -25,7 +24,6 @@ struct FrameUniforms {
     float signalClamp; // upper bound of each channel of the raw signal, radiance
     uint sampleIndex;  // replaces the frame number in new seeds
     float unused0;
-    BvhParams bvh;
 };
 
 SHARED_END

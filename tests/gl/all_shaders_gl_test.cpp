@@ -36,10 +36,10 @@ std::vector<Variant> allVariants() {
             defines = {{{"KERNEL_RADIUS", "1"}}, {{"KERNEL_RADIUS", "2"}}};
         if (name == "denoise/temporal.comp" || name == "denoise/gradient.comp")
             defines = {{}, {{"INSPECT", "1"}}};
-        if (name == "lighting/lighting.comp")
-            defines = {{{"SHADOWS", "1"}},
+        if (name == "lighting/rays.comp" || name == "lighting/trace.comp")
+            defines = {{{"SHADOWS", "1"}, {"FIRST", "1"}},
                        {{"AMBIENT_OCCLUSION", "1"}},
-                       {{"SHADOWS", "1"}, {"AMBIENT_OCCLUSION", "1"}}};
+                       {{"AMBIENT_OCCLUSION", "1"}, {"FIRST", "1"}}};
         if (name == "post/debug_view.comp")
             defines = {{{"SOURCE", "Float4Texture"}},
                        {{"SOURCE", "Uint4Texture"}, {"SOURCE_IS_INTEGER", "1"}}};

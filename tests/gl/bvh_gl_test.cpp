@@ -3,11 +3,12 @@
 // two triangles at one distance. Each such excuse is checked in double precision, counted and
 // bounded.
 
-#include "renderer/bvh/bvh_trace.h"
+#include "renderer/bvh/scene_bvh.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
 #include "renderer/scene/procedural.h"
+#include "tests/gl/binary_bvh.h"
 #include "tests/gl/bvh_rays.h"
 #include "tests/gl/embree_judge.h"
 #include "tests/support/gl_fixture.h"
@@ -26,11 +27,10 @@ namespace {
 
 constexpr std::string_view kShader = R"(#version 450
 #include "shared/bindings.h"
-#include "shared/bvh.h"
 
 layout(local_size_x = 64) in;
-layout(std140, binding = kPassBlock) uniform Params { BvhParams bvhParams; };
 #include "lib/bvh_trace.glsl"
+// WALK
 
 Uint4Buffer(rays); // origin, tMax; direction, unused
 writeonly uniform uimage2D hits;      // t, instance, triangle, whether the any-hit query found one
@@ -44,9 +44,9 @@ void main() {
     int ray = p.y * size.x + p.x;
     vec4 a = uintBitsToFloat(fetchBuffer(rays, 2 * ray));
     vec4 b = uintBitsToFloat(fetchBuffer(rays, 2 * ray + 1));
-    BvhHit hit;
-    closestHit(a.xyz, b.xyz, a.w, hit);
-    bool anyHit = occluded(a.xyz, b.xyz, a.w);
+    BvhHit hit, anything;
+    TRACE(a.xyz, b.xyz, a.w, false, hit);
+    bool anyHit = TRACE(a.xyz, b.xyz, a.w, true, anything);
     imageStore(hits, p, uvec4(floatBitsToUint(hit.t), hit.instance, hit.triangle, uint(anyHit)));
     imageStore(barycentrics, p, vec4(hit.barycentrics, 0.0, 0.0));
 }
@@ -54,37 +54,38 @@ void main() {
 
 enum class FetchBy { Default, Image, Sampler };
 
-/// `rays` are a multiple of 512.
-std::vector<Hit> traceWithGlsl(const SceneBvh& bvh, const std::vector<GpuRay>& rays,
-                               FetchBy fetchBy = FetchBy::Default) {
-    testContext();
+template <class Values>
+TexelBuffer uploaded(std::string_view label, const Values& values) {
+    TexelBuffer buffer(label, values.size() * sizeof(values[0]));
+    buffer.write(values);
+    return buffer;
+}
+
+/// Both queries of each ray; their number is a multiple of 512. `walk` is GLSL that may stand
+/// between the program's walk and the shader, and `trace` the function that is called.
+std::vector<Hit> traceWith(std::string_view walk, std::string_view trace,
+                           const std::vector<GpuRay>& rays, std::vector<Binding> reads,
+                           FetchBy fetchBy = FetchBy::Default) {
     const ShaderLibrary& shaders = testShaders();
     Defines defines = shaders.common();
+    defines.emplace_back("TRACE", trace);
     if (fetchBy != FetchBy::Default)
         std::erase_if(defines, [](const auto& define) { return define.first == "FETCH_BY_IMAGE"; });
     if (fetchBy == FetchBy::Image)
         defines.emplace_back("FETCH_BY_IMAGE", "1");
-    ComputeProgram program("bvh test", shaders.source().expandText("bvh test", kShader, defines));
-    const auto uploaded = [](std::string_view label, const auto& values) {
-        TexelBuffer buffer(label, values.size() * sizeof(values[0]));
-        buffer.write(values);
-        return buffer;
-    };
-    const TexelBuffer nodes = uploaded("nodes", bvh.nodes());
-    const TexelBuffer triangles = uploaded("triangles", bvh.triangles());
-    const TexelBuffer instances = uploaded("instances", bvh.instanceTexels());
+    std::string text(kShader);
+    constexpr std::string_view kMark = "// WALK";
+    text.replace(text.find(kMark), kMark.size(), walk);
+    ComputeProgram program("bvh test", shaders.source().expandText("bvh test", text, defines));
     const TexelBuffer rayBuffer = uploaded("rays", rays);
+    reads.emplace_back("rays", rayBuffer);
 
     const glm::ivec2 size(512, int(rays.size() / 512));
     REQUIRE(std::size_t(size.x * size.y) == rays.size());
     GpuTexture hits("hits", PixelFormat::RGBA32UI, size);
     GpuTexture barycentrics("barycentrics", PixelFormat::RG32F, size);
-    program.dispatch(size, bvh.params(),
-                     {{"bvhNodes", nodes},
-                      {"bvhTriangles", triangles},
-                      {"bvhInstances", instances},
-                      {"rays", rayBuffer}},
-                     {{"hits", hits}, {"barycentrics", barycentrics}});
+    const Binding writes[] = {{"hits", hits}, {"barycentrics", barycentrics}};
+    program.dispatch(size, std::span<const Binding>(reads), writes);
 
     const auto hitPixels = hits.read<glm::uvec4>();
     const auto barycentricPixels = barycentrics.read<glm::vec2>();
@@ -100,7 +101,60 @@ std::vector<Hit> traceWithGlsl(const SceneBvh& bvh, const std::vector<GpuRay>& r
     return result;
 }
 
+std::vector<Hit> traceWithGlsl(const SceneBvh& bvh, const std::vector<GpuRay>& rays,
+                               FetchBy fetchBy = FetchBy::Default) {
+    testContext();
+    const TexelBuffer records = uploaded("records", bvh.records());
+    return traceWith("", "bvhTrace", rays, {{"bvhRecords", records}}, fetchBy);
+}
+
+/// The same triangles through a tree of two children a node.
+std::vector<Hit> traceWithBinaryTree(const std::vector<WorldTriangle>& triangles,
+                                     const std::vector<GpuRay>& rays) {
+    testContext();
+    std::vector<Aabb> boxes;
+    std::vector<gpu::BvhTriangle> leaves;
+    for (const WorldTriangle& triangle : triangles)
+        boxes.push_back(boundsOf(gpu::BvhTriangle{.v0 = triangle.corners[0],
+                                                  .instance = 0,
+                                                  .v1 = triangle.corners[1],
+                                                  .triangle = 0,
+                                                  .v2 = triangle.corners[2],
+                                                  .next = 0}));
+    const BinaryBvh tree = buildBinaryBvh(boxes);
+    for (const std::uint32_t i : tree.order)
+        leaves.push_back({.v0 = triangles[i].corners[0],
+                          .instance = triangles[i].instance,
+                          .v1 = triangles[i].corners[1],
+                          .triangle = triangles[i].triangle,
+                          .v2 = triangles[i].corners[2],
+                          .next = 0});
+    const TexelBuffer nodes = uploaded("nodes", tree.nodes);
+    const TexelBuffer packed = uploaded("triangles", leaves);
+    return traceWith(kBinaryTrace, "binaryTrace", rays,
+                     {{"binaryNodes", nodes}, {"binaryTriangles", packed}});
+}
+
 constexpr std::size_t kRays = 512 * 256;
+
+/// All that is hit is hit at the same distance, to the bit: the walks differ only in the order in
+/// which they meet what is there. Where two triangles are at one distance, either may come first.
+void compareWithBinaryTree(const std::vector<Hit>& ours, const std::vector<Hit>& theirs,
+                           int mostCoincident) {
+    int distance = 0, any = 0, triangle = 0;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        distance += ours[i].closest() != theirs[i].closest() || ours[i].t != theirs[i].t;
+        any += ours[i].any != theirs[i].any;
+        triangle += ours[i].instance != theirs[i].instance ||
+                    ours[i].triangle != theirs[i].triangle ||
+                    ours[i].barycentrics != theirs[i].barycentrics;
+    }
+    MESSAGE("against a tree of two children a node: ", triangle, " of ", ours.size(),
+            " rays name another triangle at the same distance");
+    CHECK(distance == 0);
+    CHECK(any == 0);
+    CHECK(triangle <= mostCoincident + 20);
+}
 
 /// `mostCoincident`: of rays whose nearest hit is on two surfaces at once, which the scene decides.
 void compareWithEmbree(const Scene& scene, const SceneBvh& bvh, const Pose& pose, Random& random,
@@ -108,6 +162,7 @@ void compareWithEmbree(const Scene& scene, const SceneBvh& bvh, const Pose& pose
     const std::vector<WorldTriangle> triangles = worldTriangles(scene, pose);
     const std::vector<GpuRay> rays = raysAround(triangles, kRays, random);
     const std::vector<Hit> ours = traceWithGlsl(bvh, rays);
+    compareWithBinaryTree(ours, traceWithBinaryTree(triangles, rays), mostCoincident);
     const EmbreeScene embree(triangles);
     const Judge judge(triangles, scene.instances.size());
 
@@ -162,7 +217,7 @@ TEST_CASE("the GLSL walk hits what Embree hits among moving instances, wherever 
     Random random(2);
     const Scene scene = movingThings(random);
     SceneBvh bvh(scene);
-    REQUIRE(bvh.params().movingInstances == 40);
+    REQUIRE(bvh.movingInstances() == 40);
     for (const double seconds : {0.0, 0.6}) {
         const Pose pose = poseAt(scene, seconds);
         bvh.refresh(pose);

@@ -9,8 +9,8 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "renderer/bvh/bvh_trace.h"
 #include "renderer/scene/scene.h"
+#include "shared/bvh.h"
 
 namespace afterglow::test {
 
@@ -61,10 +61,10 @@ struct GpuRay { // two texels
 
 struct Hit {
     float t = 0.0f;
-    std::uint32_t instance = gpu::kBvhNone, triangle = 0;
+    std::uint32_t instance = gpu::kBvhNoInstance, triangle = 0;
     glm::vec2 barycentrics{0.0f};
     bool any = false; ///< what the any-hit query says
-    bool closest() const { return instance != gpu::kBvhNone; }
+    bool closest() const { return instance != gpu::kBvhNoInstance; }
     bool operator==(const Hit&) const = default;
 };
 

@@ -83,13 +83,12 @@ const std::vector<SharedStruct>& sharedStructs() {
                       MEMBER(now), MEMBER(gradient)),
         SHARED_STRUCT(DifferenceParams, "shared/instrument_params.h", MEMBER(isAbsolute),
                       MEMBER(unused0), MEMBER(unused1), MEMBER(unused2)),
-        SHARED_STRUCT(
-            FrameUniforms, "shared/frame.h", MEMBER(clipFromWorld), MEMBER(previousClipFromWorld),
-            MEMBER(viewFromWorld), MEMBER(previousViewFromWorld), MEMBER(cameraPosition),
-            MEMBER(tanHalfFov), MEMBER(ambient), MEMBER(extent), MEMBER(size), MEMBER(strata),
-            MEMBER(frame), MEMBER(seed), MEMBER(historyValid), MEMBER(lightTriangleCount),
-            MEMBER(aoRadius), MEMBER(signalClamp), MEMBER(sampleIndex), MEMBER(unused0),
-            MEMBER(bvh.movingInstances), MEMBER(bvh.topRoot), MEMBER(bvh.pad0), MEMBER(bvh.pad1)),
+        SHARED_STRUCT(FrameUniforms, "shared/frame.h", MEMBER(clipFromWorld),
+                      MEMBER(previousClipFromWorld), MEMBER(viewFromWorld),
+                      MEMBER(previousViewFromWorld), MEMBER(cameraPosition), MEMBER(tanHalfFov),
+                      MEMBER(ambient), MEMBER(extent), MEMBER(size), MEMBER(strata), MEMBER(frame),
+                      MEMBER(seed), MEMBER(historyValid), MEMBER(lightTriangleCount),
+                      MEMBER(aoRadius), MEMBER(signalClamp), MEMBER(sampleIndex), MEMBER(unused0)),
     };
     return structs;
 }

@@ -202,8 +202,8 @@ TEST_CASE("errors planted in the forward projection do not pass") {
 }
 
 TEST_CASE("errors planted in the lighting do not pass") {
-    const std::string file = "lighting/lighting.comp", lights = "lib/lights.glsl",
-                      random = "lib/random.glsl";
+    const std::string file = "lighting/rays.comp", trace = "lighting/trace.comp",
+                      lights = "lib/lights.glsl", random = "lib/random.glsl";
     checkMutants(
         measureLighting,
         {{"cosine at the surface dropped", file, "max(dot(normal, direction), 0.0)", "1.0"},
@@ -216,7 +216,7 @@ TEST_CASE("errors planted in the lighting do not pass") {
          {"a whole parallelogram's area", file, "cosine * 0.5 * facing", "cosine * facing"},
          {"pi forgotten", file, "(kPi * max", "(max"},
          {"probability forgotten", file, " * light.probability)", ")"},
-         {"no shadows", file, "matters ? distance * kShadowEnd : -1.0", "-1.0"},
+         {"no shadows", trace, "= occluded(", "= from.w < 0.0 && occluded("},
          {"shadows of what is behind the lamp", file, "distance * kShadowEnd", "1e9"},
          {"the two numbers on the lamp exchanged", file,
           "randomNumber(seed, kDimensionLightU),\n                  "
@@ -239,6 +239,14 @@ TEST_CASE("errors planted in the lighting do not pass") {
           "vec3 world = t; world += 0.0 * vec3("},
          {"origin on the surface's other side", file, "position + geometricNormal *",
           "position - geometricNormal *"},
+         {"the last ray of a segment not traced", trace, "if (place >=", "if (place + 1u >="},
+         {"half of a list not traced", trace, "if (place >=", "if (place >= 32u || place >="},
+         {"a ray too early in its list", file, "bits & (bit - 1u)", "bits & (bit >> 1u)"},
+         {"light of the pixel beside", trace, "ivec2(to.w & 0xffffu,",
+          "ivec2((to.w & 0xffffu) ^ 1u,"},
+         {"surroundings instead of light", trace, "imageLoad(raw, p) +", ""},
+         {"light that shadows leave", trace, "imageStore(raw, p, vec4(0.0))",
+          "imageStore(raw, p, imageLoad(raw, p))"},
          {"one tile for all runs", random, "hash2(frame.seed, dimension)", "hash2(0u, dimension)"},
          {"tile not shifted", random, "+ uvec2(shift, shift >> kTileBits)", ""},
          {"base of the Halton sequence", random, "radicalInverse(index, 7.0, 7)",

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/bvh/bvh_trace.h"
+#include "tests/support/bvh_trace.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -12,6 +13,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 using namespace afterglow;
+using namespace afterglow::test;
 
 namespace {
 
@@ -86,9 +88,8 @@ struct Triangle {
     glm::dvec3 corners[3];
 };
 
-/// Every triangle where it stands. What does not move is rounded once, as SceneBvh documents.
+/// Every triangle where it stands, rounded once, as SceneBvh documents.
 std::vector<Triangle> trianglesOf(const Scene& scene, const Pose& pose) {
-    const std::vector<bool> moves = movingNodes(scene);
     std::vector<Triangle> all;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
@@ -98,8 +99,7 @@ std::vector<Triangle> trianglesOf(const Scene& scene, const Pose& pose) {
             Triangle triangle{.instance = i, .triangle = t, .corners = {}};
             for (int c = 0; c < 3; ++c) {
                 const glm::dvec4 local(mesh.positions[mesh.triangles[t][c]], 1.0);
-                const glm::dvec3 world(matrix * local);
-                triangle.corners[c] = moves[instance.node] ? world : glm::dvec3(glm::vec3(world));
+                triangle.corners[c] = glm::dvec3(glm::vec3(matrix * local));
             }
             all.push_back(triangle);
         }
@@ -192,37 +192,60 @@ Tally compare(const Scene& scene, const SceneBvh& bvh, const Pose& pose, double 
     return tally;
 }
 
-Aabb childBox(const gpu::BvhNode& node, int child) {
-    const glm::vec4 xy = child == 0 ? node.child0xy : node.child1xy;
-    const glm::vec2 z = child == 0 ? glm::vec2(node.childrenZ.x, node.childrenZ.y)
-                                   : glm::vec2(node.childrenZ.z, node.childrenZ.w);
-    return {{xy.x, xy.z, z.x}, {xy.y, xy.w, z.y}};
-}
+/// A tree over boxes, each the leaf of a triangle that spans it.
+struct BoxTree {
+    explicit BoxTree(std::vector<Aabb> of, BvhOptions options = {}) : boxes(std::move(of)) {
+        std::vector<BvhRecord> leaves;
+        for (std::uint32_t i = 0; i < boxes.size(); ++i)
+            leaves.push_back(gpu::BvhTriangle{.v0 = boxes[i].min,
+                                              .instance = gpu::kBvhTriangle,
+                                              .v1 = boxes[i].max,
+                                              .triangle = i,
+                                              .v2 = boxes[i].max,
+                                              .next = 0});
+        firstBlock = options.firstBlock;
+        tree = buildBvh(boxes, leaves, options);
+    }
+    std::uint32_t depth() const { return depthOf(tree.root, tree.records, firstBlock); }
 
-/// Whether every box is in exactly one leaf and inside every box above that leaf.
-bool isWhole(const Bvh& bvh, const std::vector<Aabb>& boxes) {
-    std::vector<int> seen(boxes.size(), 0);
+    std::vector<Aabb> boxes;
+    Bvh tree;
+    std::uint32_t firstBlock = 0;
+};
+
+/// Returns whether every box is in exactly one leaf and inside every box above that leaf, and no
+/// leaf holds more than may be.
+bool isWhole(const BoxTree& of, std::uint32_t maxLeafSize = kBvhMaxLeafSize) {
+    std::vector<int> seen(of.boxes.size(), 0);
     bool inside = true;
-    const std::function<void(std::uint32_t, std::vector<Aabb>)> visit =
-        [&](std::uint32_t node, const std::vector<Aabb>& above) {
-            for (const int child : {0, 1}) {
-                const std::uint32_t link =
-                    child == 0 ? bvh.nodes[node].link0 : bvh.nodes[node].link1;
+    const std::function<void(const gpu::BvhNode&, std::vector<Aabb>)> visit =
+        [&](const gpu::BvhNode& node, const std::vector<Aabb>& above) {
+            for (std::uint32_t k = 0; k < gpu::kBvhWidth; ++k) {
+                if (childBox(node, k).empty())
+                    continue;
                 std::vector<Aabb> path = above;
-                path.push_back(childBox(bvh.nodes[node], child));
-                if (!isLeaf(link)) {
-                    visit(link, path);
+                path.push_back(childBox(node, k));
+                const auto at = [&](std::uint32_t record) {
+                    return of.tree.records.at(record - of.firstBlock * gpu::kBvhWidth);
+                };
+                BvhRecord child = at(gpu::kBvhWidth * node.block + k);
+                if (!child.isTriangle()) {
+                    visit(child.node(), path);
                     continue;
                 }
-                for (std::uint32_t i = 0; i < leafCount(link); ++i) {
-                    const std::uint32_t box = bvh.order[leafFirst(link) + i];
-                    ++seen[box];
+                for (std::uint32_t length = 1;; ++length) {
+                    const std::uint32_t box = child.triangle().triangle;
+                    ++seen.at(box);
                     for (const Aabb& outer : path)
-                        inside = inside && outer.contains(boxes[box]);
+                        inside = inside && outer.contains(of.boxes[box]);
+                    inside = inside && length <= maxLeafSize;
+                    if (child.triangle().next == 0)
+                        break;
+                    child = at(child.triangle().next);
                 }
             }
         };
-    visit(0, {});
+    visit(of.tree.root.node(), {});
     return inside && std::all_of(seen.begin(), seen.end(), [](int count) { return count == 1; });
 }
 
@@ -240,24 +263,36 @@ std::vector<Aabb> randomBoxes(Random& random, int count) {
 
 TEST_CASE("every box is in one leaf of its tree, and inside all boxes above it") {
     Random random(11);
-    for (const int count : {0, 1, 2, 3, 4, 5, 8, 33, 1000})
-        for (const std::uint32_t leafSize : {1u, 4u}) {
-            CAPTURE(count);
-            const std::vector<Aabb> boxes = randomBoxes(random, count);
-            const Bvh bvh = buildBvh(boxes, leafSize);
-            CHECK(isWhole(bvh, boxes));
-            CHECK(bvh.nodes.size() <= std::size_t(std::max(count - 1, 1)));
-            if (count > 100)
-                CHECK(depthOf(bvh.nodes) < 20); // not degenerate: 2 * log2(1000)
-        }
+    for (const int count : {0, 1, 2, 3, 4, 5, 8, 33, 1000, 20000})
+        for (const std::uint32_t leafSize : {1u, 4u})
+            for (const std::uint32_t firstBlock : {0u, 7u}) {
+                CAPTURE(count);
+                const BoxTree tree(randomBoxes(random, count),
+                                   {.firstBlock = firstBlock, .maxLeafSize = leafSize});
+                CHECK(isWhole(tree, leafSize));
+                CHECK(tree.tree.records.size() % gpu::kBvhWidth == 0);
+                if (count > 100)
+                    CHECK(tree.depth() < 14); // not degenerate: log2(20000)
+            }
+}
+
+TEST_CASE("a tree is the same for any number of threads") {
+    Random random(12);
+    const std::vector<Aabb> boxes = randomBoxes(random, 150000); // several chunks and many parts
+    const BoxTree one(boxes, {.threads = 1});
+    for (const unsigned threads : {2u, 3u, 8u}) {
+        const BoxTree several(boxes, {.threads = threads});
+        CHECK(several.tree.root == one.tree.root);
+        CHECK(several.tree.records == one.tree.records);
+    }
+    CHECK(isWhole(one));
 }
 
 TEST_CASE("no path is longer than the stack of a walk, whatever the boxes") {
     SUBCASE("a hundred thousand identical boxes") {
-        const std::vector<Aabb> boxes(100000, Aabb{{1, 2, 3}, {4, 5, 6}});
-        const Bvh bvh = buildBvh(boxes);
-        CHECK(isWhole(bvh, boxes));
-        CHECK(depthOf(bvh.nodes) <= 17); // halved each time
+        const BoxTree tree(std::vector<Aabb>(100000, Aabb{{1, 2, 3}, {4, 5, 6}}));
+        CHECK(isWhole(tree));
+        CHECK(tree.depth() <= 17); // halved each time
     }
     SUBCASE("boxes at powers of two, of which each split sheds only a few") {
         std::vector<Aabb> boxes;
@@ -266,19 +301,76 @@ TEST_CASE("no path is longer than the stack of a walk, whatever the boxes") {
                 const float x = std::ldexp(1.0f, exponent);
                 boxes.push_back({{x, 0, 0}, {x * 1.01f, x, x}});
             }
-        const Bvh bvh = buildBvh(boxes, 1);
-        CHECK(isWhole(bvh, boxes));
-        CHECK(depthOf(bvh.nodes) <= gpu::kBvhMaxDepth);
-        CHECK(depthOf(bvh.nodes) > gpu::kBvhMaxDepth / 2); // the case is as bad as it means to be
+        const BoxTree shallow(boxes, {.maxLeafSize = 1, .maxDepth = 14});
+        CHECK(isWhole(shallow, 1));
+        CHECK(shallow.depth() <= 14); // 2^14 leaves are room for 6,400
+        const BoxTree free(boxes, {.maxLeafSize = 1});
+        CHECK(isWhole(free, 1));
+        CHECK(free.depth() <= 40);
+        CHECK(free.depth() > 14); // the case is as bad as it means to be
     }
     SUBCASE("boxes whose areas overflow") {
         std::vector<Aabb> boxes;
         for (int i = 0; i < 1000; ++i)
-            boxes.push_back({{-3e38f, float(i), 0}, {3e38f, float(i) + 1e30f, 3e38f}});
-        const Bvh bvh = buildBvh(boxes);
-        CHECK(isWhole(bvh, boxes));
-        CHECK(depthOf(bvh.nodes) <= gpu::kBvhMaxDepth);
+            boxes.push_back({{-8e36f, float(i), 0}, {8e36f, float(i) + 1e30f, 8e36f}});
+        const BoxTree tree(boxes);
+        CHECK(isWhole(tree));
+        CHECK(tree.depth() <= 40);
     }
+}
+
+TEST_CASE("a node holds its children's boxes with little room to spare, whatever their size") {
+    Random random(13);
+    for (const double scale : {1e-30, 1e-6, 1.0, 1e6, 1e30})
+        for (int i = 0; i < 200; ++i) {
+            std::array<Aabb, gpu::kBvhWidth> boxes;
+            const int children = random.below(5);
+            Aabb all;
+            for (int k = 0; k < children; ++k) {
+                boxes[std::size_t(k)].include(glm::vec3(random.inCube(scale)));
+                boxes[std::size_t(k)].include(glm::vec3(random.inCube(scale)));
+                all.include(boxes[std::size_t(k)]);
+            }
+            const gpu::BvhNode node = packNode(boxes, 5);
+            CHECK(node.block == 5);
+            for (std::uint32_t k = 0; k < gpu::kBvhWidth; ++k) {
+                const Aabb packed = childBox(node, k);
+                REQUIRE(packed.empty() == boxes[k].empty());
+                if (packed.empty())
+                    continue;
+                CHECK(packed.contains(boxes[k]));
+                if (scale < 1e-18) // finer than the finest grid
+                    continue;
+                // A step is at most 2 / 255 of the extent.
+                const glm::vec3 slack = 0.0085f * (all.max - all.min) + float(2e-6 * scale);
+                CHECK(glm::all(glm::lessThanEqual(boxes[k].min - packed.min, slack)));
+                CHECK(glm::all(glm::lessThanEqual(packed.max - boxes[k].max, slack)));
+            }
+        }
+}
+
+TEST_CASE("a tree that is fitted again is one over what its triangles have become") {
+    Random random(14);
+    BoxTree tree(randomBoxes(random, 3000));
+    const std::vector<BvhRecord> before = tree.tree.records;
+    CHECK_FALSE(refitBvh(tree.tree.root, tree.tree.records, 0).empty());
+    CHECK(tree.tree.records == before); // nothing has moved
+    for (BvhRecord& record : tree.tree.records) {
+        if (!record.isTriangle() || record == nullRecord())
+            continue;
+        gpu::BvhTriangle triangle = record.triangle();
+        const glm::vec3 move(random.inCube(3.0));
+        triangle.v0 += move;
+        triangle.v1 += move;
+        triangle.v2 += move;
+        tree.boxes[triangle.triangle] = boundsOf(triangle);
+        record = triangle;
+    }
+    CHECK_FALSE(isWhole(tree));
+    const Aabb bounds = refitBvh(tree.tree.root, tree.tree.records, 0);
+    CHECK(isWhole(tree));
+    for (const Aabb& box : tree.boxes)
+        CHECK(bounds.contains(box));
 }
 
 TEST_CASE("a tree finds what all triangles in turn find") {
@@ -353,7 +445,7 @@ TEST_CASE(
             addInstance(scene, std::uint32_t(1 + i % 2), node, i % 4 != 3);
         }
         SceneBvh bvh(scene);
-        CHECK(bvh.moves() == (movers > 0));
+        CHECK((bvh.movingInstances() > 0) == (movers > 0));
         for (const double seconds : {0.0, 0.37, 1.0}) {
             CAPTURE(round);
             CAPTURE(seconds);
@@ -366,16 +458,16 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a scene in which nothing moves has no top level") {
+TEST_CASE("a refresh changes nothing where nothing moves") {
     Random random(2);
-    Scene scene = sceneOf(soup(random, 20, 1.0, 0.5));
-    CHECK(SceneBvh(scene).params().movingInstances == 0);
-    CHECK_FALSE(SceneBvh(scene).moves());
-    CHECK_FALSE(SceneBvh(scene).instanceTexels().empty());
-    CHECK_FALSE(SceneBvh(Scene{}).triangles().empty());
+    const Scene scene = sceneOf(soup(random, 20, 1.0, 0.5));
+    SceneBvh bvh(scene);
+    bvh.refresh(poseAt(scene, 0.5));
+    CHECK(bvh.changed().empty());
+    CHECK(SceneBvh(Scene{}).records().size() >= gpu::kBvhWidth);
 }
 
-TEST_CASE("two instances of a mesh that moves share its tree, and a refresh keeps all sizes") {
+TEST_CASE("a refresh keeps all sizes, and tells which records it has changed") {
     Random random(8);
     Scene scene = sceneOf(soup(random, 20, 1.0, 0.5));
     scene.meshes.push_back(soup(random, 33, 1.0, 0.5));
@@ -385,15 +477,23 @@ TEST_CASE("two instances of a mesh that moves share its tree, and a refresh keep
     node.translation = {0.0f, 9.0f, 0.0f};
     addInstance(scene, 1, node, true);
     SceneBvh bvh(scene);
-    CHECK(bvh.triangles().size() == 20 + 33);
-    CHECK(bvh.moving().size() == 2);
-    const std::size_t size = bvh.instanceTexels().size();
-    const std::vector<glm::uvec4> before(bvh.instanceTexels().begin(), bvh.instanceTexels().end());
-    bvh.refresh(poseAt(scene, 0.5));
-    CHECK(bvh.instanceTexels().size() == size);
-    CHECK_FALSE(std::equal(before.begin(), before.end(), bvh.instanceTexels().begin()));
-    bvh.refresh(poseAt(scene, 0.0));
-    CHECK(std::equal(before.begin(), before.end(), bvh.instanceTexels().begin()));
+    CHECK(bvh.movingInstances() == 2);
+    const auto copy = [&] {
+        return std::vector<BvhRecord>(bvh.records().begin(), bvh.records().end());
+    };
+    const std::vector<BvhRecord> before = copy();
+    for (const double seconds : {0.5, 0.5, 0.0}) {
+        const std::vector<BvhRecord> last = copy();
+        bvh.refresh(poseAt(scene, seconds));
+        REQUIRE(bvh.records().size() == before.size());
+        std::vector<BvhRecord> uploaded = last;
+        for (const SceneBvh::Span span : bvh.changed())
+            std::copy_n(bvh.records().begin() + std::ptrdiff_t(span.first), span.count,
+                        uploaded.begin() + std::ptrdiff_t(span.first));
+        CHECK(uploaded == copy());
+        CHECK(bvh.changed().empty() == (last == copy()));
+    }
+    CHECK(copy() == before);
 }
 
 TEST_CASE("a moving instance that is squeezed to nothing is not hit, and the others are") {
@@ -406,7 +506,6 @@ TEST_CASE("a moving instance that is squeezed to nothing is not hit, and the oth
     whole.translation = {10.0f, 0.0f, 0.0f};
     addInstance(scene, 1, whole, true);
     const SceneBvh bvh(scene);
-    CHECK(bvh.params().movingInstances == 1);
     CHECK_FALSE(occluded(bvh, {.origin = {0.0, 1.0, 0.5}, .direction = {0.0, -1.0, 0.0}}));
     const auto hit = closestHit(bvh, {.origin = {11.2, 1.0, 0.5}, .direction = {0.0, -2.0, 0.0}});
     REQUIRE(hit);

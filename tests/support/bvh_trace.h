@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-namespace afterglow {
+namespace afterglow::test {
 
 /// The points origin + t * direction for t in (0, tMax). The direction need not have unit length.
 struct Ray {
@@ -25,10 +25,11 @@ struct RayHit {
     glm::dvec2 barycentrics{0.0}; ///< weights of corners 1 and 2; corner 0 has the rest of one
 };
 
-/// The nearest triangle, from either side, in double precision. For picking and for references.
+/// Returns the nearest triangle, from either side: a walk over the records that shaders walk, in
+/// double precision and as plain as can be.
 std::optional<RayHit> closestHit(const SceneBvh& bvh, const Ray& ray);
 
-/// Whether anything is hit.
+/// Returns whether anything is hit.
 bool occluded(const SceneBvh& bvh, const Ray& ray);
 
-} // namespace afterglow
+} // namespace afterglow::test

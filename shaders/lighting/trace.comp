@@ -1,0 +1,42 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+
+// Traces the rays of a list until anything is hit. With SHADOWS, a pixel whose ray hits something
+// loses its light; with AMBIENT_OCCLUSION, one whose ray hits nothing gets that of the
+// surroundings.
+
+#include "lib/fetch.glsl"
+#include "lib/tile.glsl"
+#include "shared/ray_list.h"
+
+#include "lib/bvh_trace.glsl"
+#ifdef AMBIENT_OCCLUSION
+#include "lib/frame.glsl"
+#endif
+
+layout(local_size_x = 64) in;
+
+Uint4Buffer(rays);
+UintBuffer(rayCounts);
+
+layout(rgba32f) uniform image2D raw;
+
+void main() {
+    uint segment, place;
+    placeInList(segment, place);
+    if (place >= fetchBuffer(rayCounts, int(segment)).x)
+        return;
+    int texel = int((segment * kSegmentRays + place) * kTexelsPerRay);
+    vec4 from = uintBitsToFloat(fetchBuffer(rays, texel));
+    uvec4 to = fetchBuffer(rays, texel + 1);
+    bool hidden = occluded(from.xyz, uintBitsToFloat(to.xyz), from.w);
+    ivec2 p = ivec2(to.w & 0xffffu, to.w >> 16u);
+#ifdef SHADOWS
+    if (hidden)
+        imageStore(raw, p, vec4(0.0));
+#endif
+#ifdef AMBIENT_OCCLUSION
+    if (!hidden)
+        imageStore(raw, p, imageLoad(raw, p) + vec4(frame.ambient, 0.0));
+#endif
+}
