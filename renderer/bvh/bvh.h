@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "renderer/base/large_array.h"
 #include "renderer/bvh/aabb.h"
 #include "shared/bvh.h"
 
@@ -14,9 +15,9 @@ namespace afterglow {
 
 /// One record of the tree that shaders walk: a gpu::BvhNode or a gpu::BvhTriangle.
 struct BvhRecord {
-    std::array<std::uint32_t, 12> words{};
+    std::array<std::uint32_t, 12> words;
 
-    BvhRecord() = default;
+    BvhRecord() = default; ///< of no particular bits
     BvhRecord(const gpu::BvhNode& node) : words(std::bit_cast<decltype(words)>(node)) {}
     BvhRecord(const gpu::BvhTriangle& triangle) : words(std::bit_cast<decltype(words)>(triangle)) {}
 
@@ -29,15 +30,14 @@ struct BvhRecord {
 /// A record of a triangle that no ray meets: what stands where a node has no child.
 BvhRecord nullRecord();
 
-/// A bounding volume hierarchy of four children a node. It does not know what is in its leaves.
-struct Bvh {
-    BvhRecord root;                 ///< a node, even if nothing is in the tree
-    std::vector<BvhRecord> records; ///< of all below the root: whole blocks of gpu::kBvhWidth
-    Aabb bounds;                    ///< of everything; empty if nothing is in the tree
+/// Where a tree begins. All below its root is in an array of records: whole blocks of
+/// gpu::kBvhWidth, to which links are places in that array.
+struct BvhRoot {
+    BvhRecord record{}; ///< a node, even if nothing is in the tree
+    Aabb bounds;        ///< of everything; empty if nothing is in the tree
 };
 
 struct BvhOptions {
-    std::uint32_t firstBlock = 0; ///< the block that records begin with: links count from it
     /// The largest number of leaves in one place of a block: 1 to kBvhMaxLeafSize. More than 1 only
     /// if leaves are triangles, which are linked one to the next.
     std::uint32_t maxLeafSize = 4;
@@ -46,19 +46,20 @@ struct BvhOptions {
 };
 inline constexpr std::uint32_t kBvhMaxLeafSize = 4;
 
-/// Builds a tree over leaves whose boxes have numbers that are finite: binned surface area
+/// Builds a tree of four children a node over leaves whose boxes have numbers that are finite, and
+/// adds its records behind those that are there, which are whole blocks: binned surface area
 /// heuristic (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007), the
 /// largest child split again until there are four. `leaves` are triangles, or the roots of other
 /// trees with maxLeafSize 1. Throws Error if there are more than 24 bits of blocks can count.
-Bvh buildBvh(std::span<const Aabb> boxes, std::span<const BvhRecord> leaves,
-             const BvhOptions& options = {});
+BvhRoot buildBvh(LargeArray<BvhRecord>& records, std::span<const Aabb> boxes,
+                 std::span<const BvhRecord> leaves, const BvhOptions& options = {});
 
 /// Returns the box of a triangle's corners.
 Aabb boundsOf(const gpu::BvhTriangle& triangle);
 
-/// Fits all nodes below and with `root` to triangles that have moved; the tree keeps its shape.
-/// `records` begin with block `firstBlock`. Returns the box of everything.
-Aabb refitBvh(BvhRecord& root, std::span<BvhRecord> records, std::uint32_t firstBlock);
+/// Fits a tree to triangles that have moved: its root, its bounds and all nodes between; it keeps
+/// its shape.
+void refitBvh(BvhRoot& root, std::span<BvhRecord> records);
 
 /// Returns a node over up to four boxes, of which empty ones are no children. Boxes are enlarged by
 /// 7e-7 of the largest coordinate, and outwards to the steps of the node's grid.
@@ -68,12 +69,10 @@ gpu::BvhNode packNode(const std::array<Aabb, gpu::kBvhWidth>& children, std::uin
 Aabb childBox(const gpu::BvhNode& node, std::uint32_t child);
 
 /// Returns how many nodes the longest path from a root has.
-std::uint32_t depthOf(const BvhRecord& root, std::span<const BvhRecord> records,
-                      std::uint32_t firstBlock = 0);
+std::uint32_t depthOf(const BvhRecord& root, std::span<const BvhRecord> records);
 
 /// Returns the cost that the surface area heuristic expects of a ray: records fetched, given that
 /// it meets the root's box.
-double sahCost(const BvhRecord& root, std::span<const BvhRecord> records,
-               std::uint32_t firstBlock = 0);
+double sahCost(const BvhRecord& root, std::span<const BvhRecord> records);
 
 } // namespace afterglow

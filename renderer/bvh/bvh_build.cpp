@@ -13,8 +13,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <condition_variable>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -26,6 +28,9 @@ constexpr int kMaxBins = 16;
 constexpr std::uint32_t kParts = 64;          ///< so many at least, where items are many
 constexpr std::uint32_t kSmallestPart = 2048; ///< items
 constexpr std::uint32_t kChunk = 32768;       ///< items that a thread bins at a time
+/// Of so many items and fewer, bins are over their centers; of more, over their box, which is about
+/// as large and known already.
+constexpr std::uint32_t kMeasured = 64;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -136,33 +141,20 @@ struct Bins {
     }
 };
 
-/// Moves a record's links by so many blocks.
-void moveBlocks(BvhRecord& record, std::uint32_t blocks) {
-    if (record.isTriangle()) {
-        gpu::BvhTriangle triangle = record.triangle();
-        triangle.next += triangle.next != 0 ? blocks * gpu::kBvhWidth : 0u;
-        record = triangle;
-    } else {
-        gpu::BvhNode node = record.node();
-        node.block += blocks;
-        record = node;
-    }
-}
-
 /// What all parts of a tree share.
 struct Build {
     std::span<const BvhRecord> leaves;
     BvhOptions options;
-    std::vector<Item> items;
+    LargeArray<Item> items;
     std::uint32_t partSize = 0; ///< ranges of so many items and fewer are parts
 };
 
-/// A subtree, whose records begin with a block.
+/// Builds a subtree into an array of records.
 class Part {
 public:
-    /// With `cutting` ranges of a part's size are left for others to build.
-    Part(Build& build, std::uint32_t firstBlock, unsigned threads, bool cutting)
-        : build_(build), firstBlock_(firstBlock), threads_(threads), cutting_(cutting) {}
+    /// With `cutting`, ranges of a part's size are left for others to build.
+    Part(Build& build, LargeArray<BvhRecord>& records, unsigned threads, bool cutting)
+        : build_(build), records_(records), threads_(threads), cutting_(cutting) {}
 
     struct Cut {
         Range range;
@@ -173,23 +165,25 @@ public:
     /// Returns a node over a range. Its recursion is as deep as the tree.
     BvhRecord node(const Range& range, std::uint32_t depth);
 
-    std::vector<BvhRecord> records;
     std::vector<Cut> cuts;
 
 private:
     std::uint32_t childrenOf(const Range& range, std::uint32_t depth, Range (&children)[4]);
     void split(const Range& range, std::uint32_t depth, Range& left, Range& right);
+    void splitFew(const Range& range, Range& left, Range& right);
     Bins binned(const Range& range, const Binning& binning) const;
     std::optional<Split> bestSplit(const Range& range, const Binning& binning) const;
     void halve(const Range& range, Range& left, Range& right);
+    void partition(const Range& range, const Binning& binning, const Split& split);
     void measure(Range& range) const;
+    void measureCenters(Range& range) const;
     bool isLeaf(const Range& range) const;
     void putLeaf(const Range& range, std::size_t record, std::size_t& tail);
 
     const Item& item(std::uint32_t i) const { return build_.items[i]; }
 
     Build& build_;
-    std::uint32_t firstBlock_;
+    LargeArray<BvhRecord>& records_;
     unsigned threads_;
     bool cutting_;
 };
@@ -207,19 +201,19 @@ BvhRecord Part::node(const Range& range, std::uint32_t depth) {
         leaf[k] = isLeaf(children[k]);
         tails += leaf[k] ? children[k].count() - 1 : 0;
     }
-    const std::size_t first = records.size();
+    const std::size_t first = records_.size();
     std::size_t tail = first + gpu::kBvhWidth;
     const std::size_t blocks = 1 + (tails + gpu::kBvhWidth - 1) / gpu::kBvhWidth;
-    records.resize(first + blocks * gpu::kBvhWidth, nullRecord());
+    records_.resize(first + blocks * gpu::kBvhWidth, nullRecord());
     for (std::uint32_t k = 0; k < count; ++k) {
         if (leaf[k])
             putLeaf(children[k], first + k, tail);
         else if (cutting_ && children[k].count() <= build_.partSize)
             cuts.push_back({children[k], depth + 1, first + k});
         else
-            records[first + k] = node(children[k], depth + 1);
+            records_[first + k] = node(children[k], depth + 1);
     }
-    return packNode(boxes, firstBlock_ + std::uint32_t(first / gpu::kBvhWidth));
+    return packNode(boxes, std::uint32_t(first / gpu::kBvhWidth));
 }
 
 /// Splits a range into up to four children, and so each leaf for which there is room: boxes of a
@@ -260,19 +254,21 @@ bool Part::isLeaf(const Range& range) const {
 }
 
 void Part::putLeaf(const Range& range, std::size_t record, std::size_t& tail) {
-    records[record] = build_.leaves[item(range.begin).index()];
+    records_[record] = build_.leaves[item(range.begin).index()];
     for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
-        gpu::BvhTriangle triangle = records[record].triangle();
-        triangle.next = firstBlock_ * gpu::kBvhWidth + std::uint32_t(tail);
-        records[record] = triangle;
+        gpu::BvhTriangle triangle = records_[record].triangle();
+        triangle.next = std::uint32_t(tail);
+        records_[record] = triangle;
         record = tail++;
-        records[record] = build_.leaves[item(i).index()];
+        records_[record] = build_.leaves[item(i).index()];
     }
 }
 
 void Part::split(const Range& range, std::uint32_t depth, Range& left, Range& right) {
     // The children may have so many items that halving them still ends in time.
     const std::uint64_t mostPerChild = std::uint64_t(1) << (build_.options.maxDepth - depth - 1);
+    if (range.count() <= 3)
+        return splitFew(range, left, right);
     const Binning binning(range);
     const std::optional<Split> best = bestSplit(range, binning);
     if (!best || best->leftCount > mostPerChild || range.count() - best->leftCount > mostPerChild)
@@ -280,21 +276,54 @@ void Part::split(const Range& range, std::uint32_t depth, Range& left, Range& ri
 
     left = {range.begin, range.begin + best->leftCount, best->left, {}};
     right = {left.end, range.end, best->right, {}};
-    Item* i = &build_.items[range.begin];
-    Item* j = i + range.count();
-    for (;;) {
-        while (i < j && binning(i->doubledCenter())[best->axis] < best->bin) {
-            left.centers.include(i->doubledCenter(), i->doubledCenter());
-            ++i;
-        }
-        while (i < j && !(binning(j[-1].doubledCenter())[best->axis] < best->bin)) {
-            --j;
-            right.centers.include(j->doubledCenter(), j->doubledCenter());
-        }
-        if (i >= j)
-            break;
-        std::swap(*i, j[-1]);
+    partition(range, binning, *best);
+    for (Range* child : {&left, &right})
+        if (child->count() > kMeasured)
+            child->centers = {child->box.low + child->box.low, child->box.high + child->box.high};
+        else
+            measureCenters(*child);
+}
+
+/// Puts those on the left of a split first. Each is exchanged with the first on the right whether
+/// it has to be or not: a branch on it would be foreseen every second time.
+void Part::partition(const Range& range, const Binning& binning, const Split& split) {
+    const float origin = binning.origin[split.axis], scale = binning.scale[split.axis];
+    Item* left = &build_.items[range.begin];
+    Item* const end = left + range.count();
+    for (Item* i = left; i != end; ++i) {
+        const float center = i->low[split.axis] + i->high[split.axis];
+        const int bin = std::clamp(int((center - origin) * scale), 0, binning.bins - 1);
+        const Item item = *i;
+        *i = *left;
+        *left = item;
+        left += bin < split.bin ? 1 : 0;
     }
+}
+
+/// Splits two or three items: of three, the pair with the smallest box stays together.
+void Part::splitFew(const Range& range, Range& left, Range& right) {
+    Item* const items = &build_.items[range.begin];
+    std::uint32_t pair = 1;
+    if (range.count() == 3) {
+        float least = kInfinity;
+        for (std::uint32_t single = 0; single < 3; ++single) {
+            Box box{items[single].low, items[single].high};
+            const float alone = box.halfArea();
+            box = {items[(single + 1) % 3].low, items[(single + 1) % 3].high};
+            box.include(items[(single + 2) % 3].low, items[(single + 2) % 3].high);
+            const float cost = alone + 2.0f * box.halfArea();
+            if (cost < least) {
+                least = cost;
+                pair = single;
+            }
+        }
+        std::swap(items[pair], items[2]);
+        pair = 2;
+    }
+    left = {range.begin, range.begin + pair, {}, {}};
+    right = {left.end, range.end, {}, {}};
+    measure(left);
+    measure(right);
 }
 
 Bins Part::binned(const Range& range, const Binning& binning) const {
@@ -364,13 +393,30 @@ void Part::halve(const Range& range, Range& left, Range& right) {
 }
 
 void Part::measure(Range& range) const {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+    for (std::uint32_t i = range.begin; i < range.end; ++i)
         range.box.include(item(i).low, item(i).high);
+    measureCenters(range);
+}
+
+void Part::measureCenters(Range& range) const {
+    for (std::uint32_t i = range.begin; i < range.end; ++i)
         range.centers.include(item(i).doubledCenter(), item(i).doubledCenter());
+}
+
+/// Moves a record's links by so many blocks.
+void moveBlocks(BvhRecord& record, std::uint32_t blocks) {
+    if (record.isTriangle()) {
+        gpu::BvhTriangle triangle = record.triangle();
+        triangle.next += triangle.next != 0 ? blocks * gpu::kBvhWidth : 0u;
+        record = triangle;
+    } else {
+        gpu::BvhNode node = record.node();
+        node.block += blocks;
+        record = node;
     }
 }
 
-Range allItems(const std::vector<Item>& items, unsigned threads) {
+Range allItems(const LargeArray<Item>& items, unsigned threads) {
     std::vector<Range> chunks((items.size() + kChunk - 1) / kChunk);
     parallelFor(chunks.size(), threads, [&](std::size_t i) {
         const std::size_t end = std::min((i + 1) * kChunk, items.size());
@@ -387,19 +433,65 @@ Range allItems(const std::vector<Item>& items, unsigned threads) {
     return all;
 }
 
+/// Builds the parts that were cut off and puts them behind the records, in their order.
+void buildParts(Build& build, std::span<const Part::Cut> cuts, LargeArray<BvhRecord>& records,
+                unsigned threads) {
+    std::mutex placing;
+    std::condition_variable placed;
+    std::size_t next = 0;
+    bool failed = false;
+    std::vector<LargeArray<BvhRecord>> spare; // memory that is new costs more than filling it
+    const auto buildOne = [&](std::size_t i) {
+        LargeArray<BvhRecord> own;
+        {
+            const std::lock_guard lock(placing);
+            if (!spare.empty()) {
+                own = std::move(spare.back());
+                spare.pop_back();
+            }
+        }
+        BvhRecord root = Part(build, own, 1, false).node(cuts[i].range, cuts[i].depth);
+
+        std::unique_lock lock(placing);
+        placed.wait(lock, [&] { return next == i || failed; }); // those before are being built
+        if (failed)
+            return;
+        const auto blocks = std::uint32_t(records.size() / gpu::kBvhWidth);
+        moveBlocks(root, blocks);
+        records[cuts[i].record] = root;
+        for (BvhRecord& record : own)
+            moveBlocks(record, blocks);
+        records.insert(records.end(), own.begin(), own.end());
+        own.clear();
+        spare.push_back(std::move(own));
+        ++next;
+        placed.notify_all();
+    };
+    parallelFor(cuts.size(), threads, [&](std::size_t i) {
+        try {
+            buildOne(i);
+        } catch (...) {
+            const std::lock_guard lock(placing);
+            failed = true;
+            placed.notify_all();
+            throw;
+        }
+    });
+}
+
 } // namespace
 
-Bvh buildBvh(std::span<const Aabb> boxes, std::span<const BvhRecord> leaves,
-             const BvhOptions& options) {
-    assert(boxes.size() == leaves.size());
+BvhRoot buildBvh(LargeArray<BvhRecord>& records, std::span<const Aabb> boxes,
+                 std::span<const BvhRecord> leaves, const BvhOptions& options) {
+    assert(boxes.size() == leaves.size() && records.size() % gpu::kBvhWidth == 0);
     assert(options.maxLeafSize >= 1 && options.maxLeafSize <= kBvhMaxLeafSize);
-    // A block holds more than one leaf on average; what is built below is counted exactly.
+    // A block holds more than one leaf on average; what is built is counted exactly below.
     if (boxes.size() > gpu::kBvhMaxBlocks)
         throw Error("a scene holds at most " + std::to_string(gpu::kBvhMaxBlocks) +
                     " triangles, but there are " + std::to_string(boxes.size()));
     const unsigned threads = options.threads == 0 ? hardwareThreads() : options.threads;
     const auto count = std::uint32_t(boxes.size());
-    Build build{leaves, options, std::vector<Item>(count), std::max(count / kParts, kSmallestPart)};
+    Build build{leaves, options, LargeArray<Item>(count), std::max(count / kParts, kSmallestPart)};
     parallelFor((count + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
         const auto begin = std::uint32_t(chunk) * kChunk;
         for (std::uint32_t i = begin; i < std::min(begin + kChunk, count); ++i)
@@ -408,42 +500,16 @@ Bvh buildBvh(std::span<const Aabb> boxes, std::span<const BvhRecord> leaves,
 
     const Range all = allItems(build.items, threads);
     // Roots of other trees have links that stay as they are; there are few of them.
-    const bool cuts = count > build.partSize && leaves[0].isTriangle();
-    Part top(build, options.firstBlock, threads, cuts);
-    Bvh bvh;
-    bvh.root = top.node(all, 0);
-    bvh.bounds = count > 0 ? all.box.aabb() : Aabb{};
-
-    std::vector<Part> parts(top.cuts.size(), Part(build, 0, 1, false));
-    std::vector<BvhRecord> roots(parts.size());
-    parallelFor(parts.size(), threads, [&](std::size_t i) {
-        parts[i].records.reserve(2 * top.cuts[i].range.count());
-        roots[i] = parts[i].node(top.cuts[i].range, top.cuts[i].depth);
-    });
-    std::vector<std::size_t> begins(parts.size());
-    std::size_t size = top.records.size();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        begins[i] = size;
-        size += parts[i].records.size();
-    }
-    if (options.firstBlock + size / gpu::kBvhWidth > gpu::kBvhMaxBlocks)
-        throw Error("the tree of the scene needs " + std::to_string(size / gpu::kBvhWidth) +
-                    " blocks; links count " + std::to_string(gpu::kBvhMaxBlocks));
-    bvh.records.resize(size);
-    std::copy(top.records.begin(), top.records.end(), bvh.records.begin());
-    parallelFor(parts.size(), threads, [&](std::size_t i) {
-        const std::uint32_t blocks = options.firstBlock + std::uint32_t(begins[i] / gpu::kBvhWidth);
-        for (std::size_t k = 0; k < parts[i].records.size(); ++k) {
-            moveBlocks(parts[i].records[k], blocks);
-            bvh.records[begins[i] + k] = parts[i].records[k];
-        }
-        parts[i].records = {};
-    });
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        moveBlocks(roots[i], options.firstBlock + std::uint32_t(begins[i] / gpu::kBvhWidth));
-        bvh.records[top.cuts[i].record] = roots[i];
-    }
-    return bvh;
+    const bool cutting = count > build.partSize && leaves[0].isTriangle();
+    records.reserve(records.size() + 2 * std::size_t(count));
+    Part top(build, records, threads, cutting);
+    BvhRoot root{top.node(all, 0), count > 0 ? all.box.aabb() : Aabb{}};
+    buildParts(build, top.cuts, records, threads);
+    if (records.size() / gpu::kBvhWidth > gpu::kBvhMaxBlocks)
+        throw Error("the tree of the scene needs " +
+                    std::to_string(records.size() / gpu::kBvhWidth) + " blocks; links count " +
+                    std::to_string(gpu::kBvhMaxBlocks));
+    return root;
 }
 
 } // namespace afterglow

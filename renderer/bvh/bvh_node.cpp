@@ -40,62 +40,50 @@ float area(const Aabb& box) {
     return box.empty() ? 0.0f : e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-/// A tree and where its blocks begin.
-template <class Records>
-struct Tree {
-    Records records;
-    std::uint32_t firstBlock;
+template <class Record>
+Record& childOf(const gpu::BvhNode& node, std::uint32_t k, std::span<Record> records) {
+    return records[node.block * gpu::kBvhWidth + k];
+}
 
-    auto& child(const gpu::BvhNode& node, std::uint32_t k) const {
-        return records[(node.block - firstBlock) * gpu::kBvhWidth + k];
-    }
-    auto& at(std::uint32_t record) const {
-        return records[record - firstBlock * gpu::kBvhWidth];
-    }
-};
-
-using ReadTree = Tree<std::span<const BvhRecord>>;
-
-std::uint32_t depthBelow(const gpu::BvhNode& node, const ReadTree& tree) {
+std::uint32_t depthBelow(const gpu::BvhNode& node, std::span<const BvhRecord> records) {
     std::uint32_t deepest = 0;
     for (std::uint32_t k = 0; k < gpu::kBvhWidth; ++k)
-        if (!childBox(node, k).empty() && !tree.child(node, k).isTriangle())
-            deepest = std::max(deepest, depthBelow(tree.child(node, k).node(), tree));
+        if (!childBox(node, k).empty() && !childOf(node, k, records).isTriangle())
+            deepest = std::max(deepest, depthBelow(childOf(node, k, records).node(), records));
     return deepest + 1;
 }
 
-double costBelow(const gpu::BvhNode& node, const ReadTree& tree) {
+double costBelow(const gpu::BvhNode& node, std::span<const BvhRecord> records) {
     double cost = 0.0;
     for (std::uint32_t k = 0; k < gpu::kBvhWidth; ++k) {
         const Aabb box = childBox(node, k);
         if (box.empty())
             continue;
-        const BvhRecord* record = &tree.child(node, k);
-        if (!record->isTriangle()) {
-            cost += double(area(box)) + costBelow(record->node(), tree);
-            continue;
-        }
+        const BvhRecord* record = &childOf(node, k, records);
         cost += double(area(box));
-        for (; record->triangle().next != 0; record = &tree.at(record->triangle().next))
-            cost += double(area(box));
+        if (!record->isTriangle())
+            cost += costBelow(record->node(), records);
+        else
+            for (; record->triangle().next != 0; record = &records[record->triangle().next])
+                cost += double(area(box));
     }
     return cost;
 }
 
-Aabb refitNode(BvhRecord& record, const Tree<std::span<BvhRecord>>& tree) {
-    gpu::BvhNode node = record.node();
+Aabb refitNode(BvhRecord& record, std::span<BvhRecord> records) {
+    const gpu::BvhNode node = record.node();
     std::array<Aabb, gpu::kBvhWidth> boxes;
     Aabb all;
     for (std::uint32_t k = 0; k < gpu::kBvhWidth; ++k) {
         if (childBox(node, k).empty())
             continue;
-        BvhRecord* child = &tree.child(node, k);
+        BvhRecord* child = &childOf(node, k, records);
         if (!child->isTriangle()) {
-            boxes[k] = refitNode(*child, tree);
+            boxes[k] = refitNode(*child, records);
         } else {
             boxes[k] = boundsOf(child->triangle());
             while (child->triangle().next != 0) {
-                child = &tree.at(child->triangle().next);
+                child = &records[child->triangle().next];
                 boxes[k].include(boundsOf(child->triangle()));
             }
         }
@@ -175,22 +163,20 @@ Aabb childBox(const gpu::BvhNode& node, std::uint32_t child) {
     return box;
 }
 
-Aabb refitBvh(BvhRecord& root, std::span<BvhRecord> records, std::uint32_t firstBlock) {
-    return refitNode(root, {records, firstBlock});
+void refitBvh(BvhRoot& root, std::span<BvhRecord> records) {
+    root.bounds = refitNode(root.record, records);
 }
 
-std::uint32_t depthOf(const BvhRecord& root, std::span<const BvhRecord> records,
-                      std::uint32_t firstBlock) {
-    return depthBelow(root.node(), {records, firstBlock});
+std::uint32_t depthOf(const BvhRecord& root, std::span<const BvhRecord> records) {
+    return depthBelow(root.node(), records);
 }
 
-double sahCost(const BvhRecord& root, std::span<const BvhRecord> records,
-               std::uint32_t firstBlock) {
+double sahCost(const BvhRecord& root, std::span<const BvhRecord> records) {
     Aabb all;
     for (std::uint32_t k = 0; k < gpu::kBvhWidth; ++k)
         all.include(childBox(root.node(), k));
     const double whole = double(area(all));
-    return whole > 0.0 ? 1.0 + costBelow(root.node(), {records, firstBlock}) / whole : 1.0;
+    return whole > 0.0 ? 1.0 + costBelow(root.node(), records) / whole : 1.0;
 }
 
 } // namespace afterglow

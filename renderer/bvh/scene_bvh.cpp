@@ -31,10 +31,11 @@ struct Placed {
     std::size_t first; ///< leaf of its first triangle
 };
 
-/// A tree over meshes, with their corners moved by a matrix and rounded once.
-Bvh treeOf(std::span<const Placed> meshes, std::size_t triangles, std::uint32_t firstBlock) {
-    std::vector<BvhRecord> leaves(triangles);
-    std::vector<Aabb> boxes(triangles);
+/// Adds a tree over meshes, with their corners moved by a matrix and rounded once.
+BvhRoot addTree(LargeArray<BvhRecord>& records, std::span<const Placed> meshes,
+                std::size_t triangles) {
+    LargeArray<BvhRecord> leaves(triangles);
+    LargeArray<Aabb> boxes(triangles);
     for (const Placed& placed : meshes) {
         const auto& corners = placed.mesh->triangles;
         parallelFor((corners.size() + kChunk - 1) / kChunk, hardwareThreads(), [&](std::size_t c) {
@@ -53,7 +54,7 @@ Bvh treeOf(std::span<const Placed> meshes, std::size_t triangles, std::uint32_t 
             }
         });
     }
-    return buildBvh(boxes, leaves, {.firstBlock = firstBlock, .maxDepth = kTreeDepth});
+    return buildBvh(records, boxes, leaves, {.maxDepth = kTreeDepth});
 }
 
 bool isFinite(const glm::dmat4& m) {
@@ -93,10 +94,8 @@ SceneBvh::SceneBvh(const Scene& scene) {
         triangles += mesh.triangles.size();
     }
     records_.assign(gpu::kBvhWidth, nullRecord());
-    still_ = treeOf(still, triangles, blocksOf(records_.size()));
-    records_.insert(records_.end(), still_.records.begin(), still_.records.end());
-    still_.records = {};
-    records_[gpu::kBvhRoot] = still_.root;
+    still_ = addTree(records_, still, triangles);
+    records_[gpu::kBvhRoot] = still_.record;
     addMoving(scene, movers);
     refresh(pose);
 }
@@ -108,16 +107,15 @@ void SceneBvh::addMoving(const Scene& scene, std::span<const std::uint32_t> inst
         const auto [found, isNew] = trees.emplace(mesh, meshTrees_.size());
         if (isNew) {
             const Placed local{&scene.meshes[mesh], 0, glm::dmat4(1.0), 0};
-            meshTrees_.push_back({treeOf({&local, 1}, local.mesh->triangles.size(), 0)});
+            MeshTree& tree = meshTrees_.emplace_back();
+            tree.root = addTree(tree.records, {&local, 1}, local.mesh->triangles.size());
         }
         moving_.push_back({.instance = i,
                            .node = scene.instances[i].node,
                            .mesh = found->second,
                            .block = blocksOf(records_.size()),
-                           .root = {},
-                           .bounds = {}});
-        records_.resize(records_.size() + meshTrees_[found->second].bvh.records.size(),
-                        nullRecord());
+                           .root = {}});
+        records_.resize(records_.size() + meshTrees_[found->second].records.size(), nullRecord());
     }
     joinBlock_ = blocksOf(records_.size());
     // Each node of a tree over n trees has two children at least.
@@ -134,19 +132,17 @@ bool SceneBvh::place(Moving& moving, const glm::mat4& worldFromObject) {
         return false;
     moving.placed = true;
     moving.worldFromObject = worldFromObject;
-    moving.bounds = {};
+    moving.root = {};
     const glm::dmat4 matrix(worldFromObject);
     if (!isFinite(matrix) || !isFinite(glm::inverse(matrix)))
         return true;
 
-    const Bvh& tree = meshTrees_[moving.mesh].bvh;
-    const std::span<BvhRecord> own(records_.data() + moving.block * gpu::kBvhWidth,
-                                   tree.records.size());
+    const MeshTree& tree = meshTrees_[moving.mesh];
     const auto put = [&](const BvhRecord& from, BvhRecord& to) {
         if (from.isTriangle()) {
             gpu::BvhTriangle triangle = from.triangle();
             if (triangle.instance == nullRecord().triangle().instance)
-                return;
+                return; // it is one already
             triangle.v0 = transformed(matrix, triangle.v0);
             triangle.v1 = transformed(matrix, triangle.v1);
             triangle.v2 = transformed(matrix, triangle.v2);
@@ -159,10 +155,10 @@ bool SceneBvh::place(Moving& moving, const glm::mat4& worldFromObject) {
             to = node;
         }
     };
-    for (std::size_t i = 0; i < own.size(); ++i)
-        put(tree.records[i], own[i]);
-    put(tree.root, moving.root);
-    moving.bounds = refitBvh(moving.root, own, moving.block);
+    for (std::size_t i = 0; i < tree.records.size(); ++i)
+        put(tree.records[i], records_[moving.block * gpu::kBvhWidth + i]);
+    put(tree.root.record, moving.root.record);
+    refitBvh(moving.root, records_);
     return true;
 }
 
@@ -172,7 +168,7 @@ void SceneBvh::refresh(const Pose& pose) {
         assert(moving.node < pose.worldFromNode.size());
         if (place(moving, pose.worldFromNode[moving.node]))
             changed_.push_back(
-                {moving.block * gpu::kBvhWidth, meshTrees_[moving.mesh].bvh.records.size()});
+                {moving.block * gpu::kBvhWidth, meshTrees_[moving.mesh].records.size()});
     }
     if (changed_.empty())
         return;
@@ -184,22 +180,22 @@ void SceneBvh::refresh(const Pose& pose) {
 
 void SceneBvh::join() {
     std::vector<Aabb> boxes;
-    std::vector<BvhRecord> roots;
-    const auto add = [&](const Aabb& bounds, const BvhRecord& root) {
-        if (bounds.empty())
+    LargeArray<BvhRecord> roots;
+    const auto add = [&](const BvhRoot& root) {
+        if (root.bounds.empty())
             return;
-        boxes.push_back(bounds);
-        roots.push_back(root);
+        boxes.push_back(root.bounds);
+        roots.push_back(root.record);
     };
-    add(still_.bounds, still_.root);
+    add(still_);
     for (const Moving& moving : moving_)
-        add(moving.bounds, moving.root);
-    const Bvh tree = buildBvh(boxes, roots,
-                              {.firstBlock = joinBlock_, .maxLeafSize = 1, .maxDepth = kJoinDepth});
-    records_[gpu::kBvhRoot] = tree.root;
-    assert(joinBlock_ * gpu::kBvhWidth + tree.records.size() <= records_.size());
-    std::copy(tree.records.begin(), tree.records.end(),
-              records_.begin() + joinBlock_ * gpu::kBvhWidth);
+        add(moving.root);
+    const std::size_t size = records_.size();
+    records_.resize(joinBlock_ * gpu::kBvhWidth);
+    records_[gpu::kBvhRoot] =
+        buildBvh(records_, boxes, roots, {.maxLeafSize = 1, .maxDepth = kJoinDepth}).record;
+    assert(records_.size() <= size);
+    records_.resize(size, nullRecord());
 }
 
 } // namespace afterglow

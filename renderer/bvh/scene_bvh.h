@@ -41,17 +41,18 @@ public:
     std::size_t movingInstances() const { return moving_.size(); }
 
 private:
+    /// A tree in the space of a mesh that moves.
     struct MeshTree {
-        Bvh bvh; ///< in the space of the mesh; its blocks count from 0
+        BvhRoot root;
+        LargeArray<BvhRecord> records;
     };
     struct Moving {
-        std::uint32_t instance = 0; ///< index into Scene::instances
-        std::uint32_t node = 0;     ///< index into Scene::nodes
-        std::size_t mesh = 0;       ///< index into meshTrees_
-        std::uint32_t block = 0;    ///< where its records begin
-        BvhRecord root;
-        Aabb bounds;                 ///< in the world; empty: it cannot be hit
-        glm::mat4 worldFromObject{}; ///< of root and bounds
+        std::uint32_t instance = 0;  ///< index into Scene::instances
+        std::uint32_t node = 0;      ///< index into Scene::nodes
+        std::size_t mesh = 0;        ///< index into meshTrees_
+        std::uint32_t block = 0;     ///< where its records begin
+        BvhRoot root;                ///< where it is; without bounds it cannot be hit
+        glm::mat4 worldFromObject{}; ///< of the root
         bool placed = false;         ///< they are there
     };
 
@@ -59,8 +60,8 @@ private:
     bool place(Moving& moving, const glm::mat4& worldFromObject);
     void join();
 
-    std::vector<BvhRecord> records_;
-    Bvh still_; ///< its root and bounds; the records have become ours
+    LargeArray<BvhRecord> records_;
+    BvhRoot still_; ///< of what never moves
     std::vector<MeshTree> meshTrees_;
     std::vector<Moving> moving_;
     std::uint32_t joinBlock_ = 0; ///< where the tree over all trees begins

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Binned surface area heuristic; Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
+// Binned surface area heuristic; Wald 2007, "On fast Construction of SAH-based Bounding Volume
+// Hierarchies".
 
 #include "tests/gl/binary_bvh.h"
 

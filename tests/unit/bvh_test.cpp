@@ -194,8 +194,9 @@ Tally compare(const Scene& scene, const SceneBvh& bvh, const Pose& pose, double 
 
 /// A tree over boxes, each the leaf of a triangle that spans it.
 struct BoxTree {
-    explicit BoxTree(std::vector<Aabb> of, BvhOptions options = {}) : boxes(std::move(of)) {
-        std::vector<BvhRecord> leaves;
+    explicit BoxTree(std::vector<Aabb> of, BvhOptions options = {}, std::size_t before = 0)
+        : boxes(std::move(of)) {
+        LargeArray<BvhRecord> leaves;
         for (std::uint32_t i = 0; i < boxes.size(); ++i)
             leaves.push_back(gpu::BvhTriangle{.v0 = boxes[i].min,
                                               .instance = gpu::kBvhTriangle,
@@ -203,14 +204,14 @@ struct BoxTree {
                                               .triangle = i,
                                               .v2 = boxes[i].max,
                                               .next = 0});
-        firstBlock = options.firstBlock;
-        tree = buildBvh(boxes, leaves, options);
+        records.resize(before, nullRecord());
+        root = buildBvh(records, boxes, leaves, options);
     }
-    std::uint32_t depth() const { return depthOf(tree.root, tree.records, firstBlock); }
+    std::uint32_t depth() const { return depthOf(root.record, records); }
 
     std::vector<Aabb> boxes;
-    Bvh tree;
-    std::uint32_t firstBlock = 0;
+    LargeArray<BvhRecord> records;
+    BvhRoot root;
 };
 
 /// Returns whether every box is in exactly one leaf and inside every box above that leaf, and no
@@ -225,10 +226,7 @@ bool isWhole(const BoxTree& of, std::uint32_t maxLeafSize = kBvhMaxLeafSize) {
                     continue;
                 std::vector<Aabb> path = above;
                 path.push_back(childBox(node, k));
-                const auto at = [&](std::uint32_t record) {
-                    return of.tree.records.at(record - of.firstBlock * gpu::kBvhWidth);
-                };
-                BvhRecord child = at(gpu::kBvhWidth * node.block + k);
+                BvhRecord child = of.records.at(gpu::kBvhWidth * node.block + k);
                 if (!child.isTriangle()) {
                     visit(child.node(), path);
                     continue;
@@ -241,11 +239,11 @@ bool isWhole(const BoxTree& of, std::uint32_t maxLeafSize = kBvhMaxLeafSize) {
                     inside = inside && length <= maxLeafSize;
                     if (child.triangle().next == 0)
                         break;
-                    child = at(child.triangle().next);
+                    child = of.records.at(child.triangle().next);
                 }
             }
         };
-    visit(of.tree.root.node(), {});
+    visit(of.root.record.node(), {});
     return inside && std::all_of(seen.begin(), seen.end(), [](int count) { return count == 1; });
 }
 
@@ -265,12 +263,11 @@ TEST_CASE("every box is in one leaf of its tree, and inside all boxes above it")
     Random random(11);
     for (const int count : {0, 1, 2, 3, 4, 5, 8, 33, 1000, 20000})
         for (const std::uint32_t leafSize : {1u, 4u})
-            for (const std::uint32_t firstBlock : {0u, 7u}) {
+            for (const std::size_t before : {0u, 28u}) {
                 CAPTURE(count);
-                const BoxTree tree(randomBoxes(random, count),
-                                   {.firstBlock = firstBlock, .maxLeafSize = leafSize});
+                const BoxTree tree(randomBoxes(random, count), {.maxLeafSize = leafSize}, before);
                 CHECK(isWhole(tree, leafSize));
-                CHECK(tree.tree.records.size() % gpu::kBvhWidth == 0);
+                CHECK(tree.records.size() % gpu::kBvhWidth == 0);
                 if (count > 100)
                     CHECK(tree.depth() < 14); // not degenerate: log2(20000)
             }
@@ -282,8 +279,8 @@ TEST_CASE("a tree is the same for any number of threads") {
     const BoxTree one(boxes, {.threads = 1});
     for (const unsigned threads : {2u, 3u, 8u}) {
         const BoxTree several(boxes, {.threads = threads});
-        CHECK(several.tree.root == one.tree.root);
-        CHECK(several.tree.records == one.tree.records);
+        CHECK(several.root.record == one.root.record);
+        CHECK(several.records == one.records);
     }
     CHECK(isWhole(one));
 }
@@ -352,10 +349,10 @@ TEST_CASE("a node holds its children's boxes with little room to spare, whatever
 TEST_CASE("a tree that is fitted again is one over what its triangles have become") {
     Random random(14);
     BoxTree tree(randomBoxes(random, 3000));
-    const std::vector<BvhRecord> before = tree.tree.records;
-    CHECK_FALSE(refitBvh(tree.tree.root, tree.tree.records, 0).empty());
-    CHECK(tree.tree.records == before); // nothing has moved
-    for (BvhRecord& record : tree.tree.records) {
+    const LargeArray<BvhRecord> before = tree.records;
+    refitBvh(tree.root, tree.records);
+    CHECK(tree.records == before); // nothing has moved
+    for (BvhRecord& record : tree.records) {
         if (!record.isTriangle() || record == nullRecord())
             continue;
         gpu::BvhTriangle triangle = record.triangle();
@@ -367,10 +364,10 @@ TEST_CASE("a tree that is fitted again is one over what its triangles have becom
         record = triangle;
     }
     CHECK_FALSE(isWhole(tree));
-    const Aabb bounds = refitBvh(tree.tree.root, tree.tree.records, 0);
+    refitBvh(tree.root, tree.records);
     CHECK(isWhole(tree));
     for (const Aabb& box : tree.boxes)
-        CHECK(bounds.contains(box));
+        CHECK(tree.root.bounds.contains(box));
 }
 
 TEST_CASE("a tree finds what all triangles in turn find") {
@@ -479,14 +476,14 @@ TEST_CASE("a refresh keeps all sizes, and tells which records it has changed") {
     SceneBvh bvh(scene);
     CHECK(bvh.movingInstances() == 2);
     const auto copy = [&] {
-        return std::vector<BvhRecord>(bvh.records().begin(), bvh.records().end());
+        return LargeArray<BvhRecord>(bvh.records().begin(), bvh.records().end());
     };
-    const std::vector<BvhRecord> before = copy();
+    const LargeArray<BvhRecord> before = copy();
     for (const double seconds : {0.5, 0.5, 0.0}) {
-        const std::vector<BvhRecord> last = copy();
+        const LargeArray<BvhRecord> last = copy();
         bvh.refresh(poseAt(scene, seconds));
         REQUIRE(bvh.records().size() == before.size());
-        std::vector<BvhRecord> uploaded = last;
+        LargeArray<BvhRecord> uploaded = last;
         for (const SceneBvh::Span span : bvh.changed())
             std::copy_n(bvh.records().begin() + std::ptrdiff_t(span.first), span.count,
                         uploaded.begin() + std::ptrdiff_t(span.first));
