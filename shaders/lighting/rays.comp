@@ -128,11 +128,11 @@ Ray rayOf(ivec2 p) {
     return ray;
 }
 
-shared uint listed[kSegmentRays / 32u]; // a bit for each invocation whose ray matters
+shared uint listed[kSegmentWords]; // a bit for each invocation whose ray matters
 
 void main() {
     uint lane = gl_LocalInvocationIndex;
-    if (lane < kSegmentRays / 32u)
+    if (lane < kSegmentWords)
         listed[lane] = 0u;
     memoryBarrierShared();
     barrier();
@@ -149,7 +149,7 @@ void main() {
     barrier();
 
     uint before = 0u, all = 0u;
-    for (uint i = 0u; i < kSegmentRays / 32u; ++i) {
+    for (uint i = 0u; i < kSegmentWords; ++i) {
         uint bits = listed[i];
         before += uint(bitCount(i < word ? bits : (i == word ? bits & (bit - 1u) : 0u)));
         all += uint(bitCount(bits));

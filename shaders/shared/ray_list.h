@@ -8,6 +8,7 @@ SHARED_BEGIN
 // alone.
 const uint kSegmentSize = 16u;  // pixels along each edge of a segment's square
 const uint kSegmentRays = 256u; // places in a segment: a ray a pixel
+const uint kSegmentWords = 8u;  // of 32 bits, one for each place
 const uint kTexelsPerRay = 2u;  // origin, tMax; direction, pixel as x | y << 16
 
 SHARED_END
