@@ -6,7 +6,7 @@
 
 namespace afterglow {
 
-/// Something outside this program is not as it must be. The message says what was wanted, what was
+/// Something outside this program is not as it must be. The message names what was wanted, what was
 /// found and where; it is one line and is shown to the user as it stands.
 class Error : public std::runtime_error {
 public:

@@ -11,7 +11,7 @@
 
 namespace afterglow {
 
-/// What its bytes say all about. It must have none between its members.
+/// A value that its bytes describe completely. It must have no padding between its members.
 template <class T>
 concept PlainValue =
     std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::ranges::range<T>;
@@ -20,17 +20,17 @@ concept PlainValue =
 /// another name for all purposes; it is no defence against somebody who looks for a collision.
 class Hash {
 public:
-    /// Bytes as they are: "ab" and then "c" is the same as "a" and then "bc".
+    /// Adds bytes as they are: "ab" and then "c" is the same as "a" and then "bc".
     void add(std::span<const std::byte> bytes);
     void add(std::string_view bytes) { add(std::as_bytes(std::span(bytes))); }
 
-    /// The bytes of a value.
+    /// Adds the bytes of a value.
     template <PlainValue T>
     void add(const T& value) {
         add(std::as_bytes(std::span(&value, 1)));
     }
 
-    /// How many there are and then what they are, so that one list does not run into the next.
+    /// Adds the number of values and then the values, so that one list does not run into the next.
     template <std::ranges::contiguous_range List>
     void addList(const List& list) {
         add(std::uint64_t(std::ranges::size(list)));

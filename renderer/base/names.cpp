@@ -12,7 +12,8 @@ namespace afterglow {
 
 namespace {
 
-/// The letters to insert, delete or replace to make one word of the other (Levenshtein).
+/// Returns the number of letters to insert, delete or replace to make one word of the other
+/// (Levenshtein).
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t(0));

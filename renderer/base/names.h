@@ -8,10 +8,10 @@
 
 namespace afterglow {
 
-/// The known name nearest to a misspelt one by edit distance, or empty if none is near.
+/// Returns the known name nearest to a misspelt one by edit distance, or empty if none is near.
 std::string_view nearestName(std::string_view name, std::span<const std::string_view> known);
 
-/// "no filter named 'asvfg'; did you mean 'asvgf'? (known: none, fixed, ...)".
+/// Returns "no filter named 'asvfg'; did you mean 'asvgf'? (known: none, fixed, ...)".
 std::string unknownName(std::string_view kind, std::string_view name,
                         const std::vector<std::string_view>& known);
 

@@ -25,7 +25,7 @@ public:
     bool empty() const { return bytes_ == 0; }
     const std::string& label() const { return label_; }
 
-    /// Replaces the bytes from `offset` on. More than there is room for: std::logic_error.
+    /// Replaces the bytes from `offset` on. Throws std::logic_error if there is no room for them.
     template <class T>
     void write(std::span<const T> values, std::size_t offset = 0) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -36,7 +36,7 @@ public:
         write(std::span<const std::ranges::range_value_t<Values>>(values), offset);
     }
 
-    /// As many values as the buffer has room for.
+    /// Returns as many values as the buffer has room for.
     template <class T>
     std::vector<T> read() const {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -62,8 +62,8 @@ private:
 class TexelBuffer {
 public:
     TexelBuffer() = default;
-    /// Room for `bytes`, rounded up to whole texels, at least one. Zero at first. The format has 32
-    /// bits a channel and no depth; any other is std::logic_error.
+    /// Makes room for `bytes`, rounded up to whole texels, at least one. Zero at first. The format
+    /// has 32 bits a channel and no depth; any other is std::logic_error.
     TexelBuffer(std::string_view label, std::size_t bytes,
                 PixelFormat format = PixelFormat::RGBA32UI);
 
@@ -73,7 +73,7 @@ public:
     std::size_t bytes() const { return buffer_.bytes(); }
     const std::string& label() const { return buffer_.label(); }
 
-    /// Replaces the values from the first on. Grows when they do not fit, and then loses the rest
+    /// Replaces the values from the first on. Grows when they do not fit, and then drops the rest
     /// of what it held. Throws Error when there are more than the driver can address, and
     /// std::logic_error unless a value is whole texels, or a texel whole values.
     template <class T>

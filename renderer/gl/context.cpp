@@ -25,7 +25,7 @@ constexpr std::array<GLuint, 3> kHarmlessPerformanceNotes{
     131218, // shader is being recompiled based on GL state
 };
 
-/// How serious a driver's message is; Debug is not counted as misuse.
+/// Returns how serious a driver's message is; Debug is not counted as misuse.
 LogLevel levelOf(GLenum source, GLenum type, GLuint id) {
     // A shader that does not compile is reported by the program that was to be made of it.
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER)
@@ -41,7 +41,8 @@ LogLevel levelOf(GLenum source, GLenum type, GLuint id) {
     }
 }
 
-// The driver calls it, maybe from a thread of its own. Nothing may be thrown through it.
+// Logs a message of the driver, which calls it, maybe from a thread of its own. Nothing may be
+// thrown through it.
 void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum, GLsizei length,
                           const GLchar* text, const void*) noexcept {
     const LogLevel level = levelOf(source, type, id);
@@ -60,7 +61,7 @@ std::string text(GLenum name) {
     return value ? value : "unknown";
 }
 
-/// "4.3 (Core Profile) Mesa 11.2" -> "OpenGL 4.3 (Mesa 11.2)"
+/// Shortens "4.3 (Core Profile) Mesa 11.2" to "OpenGL 4.3 (Mesa 11.2)".
 std::string shortVersion(std::string version) {
     const std::size_t space = version.find(' ');
     const std::string number = version.substr(0, space);

@@ -33,27 +33,27 @@ struct ContextOptions {
     std::optional<int> device = {};
 };
 
-/// Returns what the devices of EGL tell of themselves without a context, in the order in which EGL
-/// has them; nothing where there is no EGL, or one that has none to choose from.
+/// Returns the names by which EGL's devices describe themselves without a context, in the order in
+/// which EGL has them; nothing where there is no EGL, or one that has none to choose from.
 std::vector<std::string> eglDevices();
 
-/// A context without a window. It has no default framebuffer that could be drawn into.
-/// Throws ContextError, one line that names the library or version that is missing.
+/// Makes a context without a window. It has no default framebuffer that could be drawn into. Throws
+/// ContextError, one line that names the library or version that is missing.
 std::unique_ptr<GlContext> createHeadlessContext(Backend backend = Backend::Auto,
                                                  ContextOptions options = {});
 
-/// What every back end does once its context is current: loads the functions, checks for 4.5, sends
-/// the driver's messages to the log, puts row 0 at the top (glClipControl) with
-/// depth in [0, 1], and packs pixels without padding. Throws ContextError.
-/// Messages are told as they happen if the context is one for debugging, or if it is to be taken
-/// for one: elsewhere that would cost drivers with threads their speed.
+/// Sets up a context that is current, for every back end alike: loads the functions, checks for
+/// 4.5, sends the driver's messages to the log, puts row 0 at the top (glClipControl) with depth in
+/// [0, 1], and packs pixels without padding. Throws ContextError. Messages are logged as they
+/// happen if the context is one for debugging, or if it is to be taken for one: elsewhere that
+/// would cost drivers with threads their speed.
 void initializeGl(GLADloadfunc load, std::string_view backend, bool debug = false);
 
-/// Messages so far, over all contexts of the process, that mean this program uses OpenGL wrongly or
-/// badly: errors, undefined or deprecated behavior, performance.
+/// Returns the number of messages so far, over all contexts of the process, that mean this program
+/// uses OpenGL wrongly or badly: errors, undefined or deprecated behavior, performance.
 int glMessageCount();
 
-/// Tells from the name of a renderer (GL_RENDERER) that the CPU draws.
+/// Returns whether the CPU draws, going by the name of a renderer (GL_RENDERER).
 bool isSoftwareRenderer(std::string_view renderer);
 
 struct GlInfo {

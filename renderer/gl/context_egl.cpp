@@ -42,7 +42,7 @@ struct Egl {
     }
 };
 
-/// Whether a list of words separated by spaces has this word.
+/// Returns whether a list of words separated by spaces has this word.
 bool hasWord(const char* list, std::string_view word) {
     std::string_view rest = list ? list : "";
     while (!rest.empty()) {
@@ -60,7 +60,8 @@ struct Device {
     std::string description;
 };
 
-/// All that EGL can enumerate (NVIDIA's driver wants to be asked like this), in its own order.
+/// Returns all devices that EGL can enumerate (NVIDIA's driver wants to be asked like this), in its
+/// own order.
 std::vector<Device> devicesOf(const Egl& egl) {
     const char* client = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (!hasWord(client, "EGL_EXT_platform_base") || !hasWord(client, "EGL_EXT_platform_device") ||
@@ -103,8 +104,8 @@ struct Candidate {
     EGLDisplay display;
 };
 
-/// Displays that need no window system, best first: GPUs, Mesa without a surface, Mesa's software
-/// device. Only the one of `device` if that is given.
+/// Returns displays that need no window system, best first: GPUs, Mesa without a surface, Mesa's
+/// software device. Only the one of `device` if that is given.
 std::vector<Candidate> candidates(const Egl& egl, std::optional<int> device) {
     const char* client = egl.queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =

@@ -9,7 +9,7 @@
 
 namespace afterglow {
 
-/// The shaders, by their paths below shaders/, and the noise tables as "noise/<file>".
+/// Returns the shaders, by their paths below shaders/, and the noise tables as "noise/<file>".
 std::span<const EmbeddedFile> embeddedFiles();
 
 inline std::optional<std::string_view> embeddedFile(std::string_view name) {

@@ -39,8 +39,8 @@ std::string nameOf(GLenum error) {
     }
 }
 
-/// All that glGetError() has to tell: a flag for each kind of error. A lost context tells of that
-/// without end.
+/// Takes every error that glGetError() holds: a flag for each kind. A context that is lost
+/// (GL_CONTEXT_LOST) reports that without end.
 std::vector<GLenum> takeErrors() {
     constexpr std::size_t kKinds = 8;
     std::vector<GLenum> errors;

@@ -14,8 +14,8 @@ int glErrorCount();
 /// Returns the first of them in words; empty while there are none.
 std::string firstGlError();
 
-/// Counts the errors that glGetError() has to tell and that no driver reported: a context that was
-/// not made for debugging may report nothing. For the end of a context's work.
+/// Counts the errors that glGetError() holds and that no driver reported: a context that was not
+/// made for debugging may report nothing. For the end of a context's work.
 void sweepGlErrors();
 
 /// Throws Error if there have been errors since there were `before` of them: what was made in the
@@ -33,10 +33,10 @@ void beginGlErrors();
 /// thread.
 void noteReportedGlError(std::string_view message);
 
-/// "348.0 MiB"
+/// Returns a size as "348.0 MiB".
 std::string mebibytes(std::size_t bytes);
 
-/// For allocateGl().
+/// Throws the Error of allocateGl() if the driver had no memory.
 void requireAllocated(std::string_view object, std::string_view wanted, std::size_t bytes);
 
 /// Calls `allocate`, which makes the storage of one object, and throws Error if the driver has no

@@ -33,8 +33,8 @@ public:
         Scope(GpuTimer& timer, std::string_view name) : timer_(timer) { timer.beginScope(name); }
         GpuTimer& timer_;
     };
-    /// From here to the end of the Scope. One inside another is std::logic_error. Outside a frame,
-    /// or disabled, it is a debug group and nothing else.
+    /// Begins a scope that lasts to the end of the Scope. One inside another is std::logic_error.
+    /// Outside a frame, or disabled, it is a debug group and nothing else.
     [[nodiscard]] Scope scope(std::string_view name) { return Scope(*this, name); }
 
     void setEnabled(bool enabled); ///< the times of scopes, from the next frame on; off at first
@@ -54,9 +54,9 @@ public:
         /// unless enabled.
         std::vector<Entry> scopes;
     };
-    /// The newest frame whose times are known.
+    /// Returns the newest frame whose times are known.
     const FrameTimes& newest() const { return newest_; }
-    /// The frame that ended last. Waits until the device has finished it.
+    /// Returns the frame that ended last. Waits until the device has finished it.
     const FrameTimes& finish();
 
 private:

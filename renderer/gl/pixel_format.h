@@ -63,7 +63,7 @@ inline constexpr PixelInfo kPixelInfo<glm::u8vec4>{GL_RGBA, GL_UNSIGNED_BYTE, "u
 /// Throws std::logic_error unless a texture of this format takes and gives such pixels.
 void checkPixel(std::string_view label, PixelFormat format, const PixelInfo& pixel);
 
-/// "61 x 37"
+/// Returns "61 x 37".
 std::string sizeText(glm::ivec2 size);
 
 } // namespace afterglow

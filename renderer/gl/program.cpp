@@ -26,7 +26,7 @@ bool isImage(GLenum type) {
     return type >= GL_IMAGE_1D && type <= GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY;
 }
 
-/// The kinds of texture that a Binding can stand for; empty for any other type of uniform.
+/// Returns the kind of texture that a Binding can stand for; empty for any other type of uniform.
 std::string_view kindName(GLenum type) {
     switch (type) {
     case GL_SAMPLER_2D: return "sampler2D";
@@ -224,7 +224,8 @@ void LinkedProgram::bindOne(const Slot& slot, const Binding& binding, bool writt
                        written ? GL_READ_WRITE : GL_READ_ONLY, info(formatOf(binding)).internal);
 }
 
-// Reads then give zero, and stores do nothing: never the texture of a program before.
+// Leaves nothing bound: reads then give zero, and stores do nothing. Never the texture of a program
+// before.
 void LinkedProgram::unbind(const Slot& slot) const {
     if (isBlock(slot.type))
         glBindBufferBase(slot.type, GLuint(slot.unit), 0);

@@ -34,10 +34,10 @@ struct Binding {
     const GpuBuffer* block = nullptr; ///< a uniform block; a shader storage block where written
 };
 
-/// Makes a name that a program does not use, or that it uses and was not given, std::logic_error.
-/// On from the start in builds that take shaders from the source folder, and in tests; off
-/// elsewhere: a driver may drop a texture that it proves unused, or keep one whose use the defines
-/// removed, and drivers prove different things.
+/// Sets whether names must match: one that a program does not use, or that it uses and was not
+/// given, is then std::logic_error. On from the start in builds that take shaders from the source
+/// folder, and in tests; off elsewhere: a driver may drop a texture that it proves unused, or keep
+/// one whose use the defines removed, and drivers prove different things.
 void setStrictBindings(bool strict);
 
 /// A linked program with its inputs by name: textures, uniform blocks, and one block named Params
@@ -55,11 +55,13 @@ public:
     GLuint id() const { return program_.id(); }
     const std::string& name() const { return name_; }
 
-    /// `reads` may be samplers or images in the shader, `writes` are images. What is not given is
-    /// left without a texture. Throws std::logic_error when a name is missing or surplus (see
-    /// setStrictBindings), given twice, or of another kind than the shader declares.
+    /// Binds textures and blocks. `reads` may be samplers or images in the shader, `writes` are
+    /// images. A name that is not given is left without a texture. Throws std::logic_error when a
+    /// name is missing or surplus (see setStrictBindings), given twice, or of another kind than the
+    /// shader declares.
     void bind(std::span<const Binding> reads, std::span<const Binding> writes);
-    /// std::logic_error unless it is of the size of the block; no bytes for no block.
+    /// Replaces the block Params. Throws std::logic_error unless it is of the size of the block; no
+    /// bytes for no block.
     void setParams(std::span<const std::byte> params);
 
 private:
@@ -104,7 +106,7 @@ public:
                   std::initializer_list<Binding> writes) {
         dispatchBytes(size, {}, reads, writes);
     }
-    // One layer of threads.
+    // Runs it over one layer of threads.
     template <class Params>
     void dispatch(glm::ivec2 size, const Params& params, std::initializer_list<Binding> reads,
                   std::initializer_list<Binding> writes) {
@@ -114,7 +116,7 @@ public:
                   std::initializer_list<Binding> writes) {
         dispatch(glm::ivec3(size, 1), reads, writes);
     }
-    // Overload for lists whose length is not known at compile time.
+    // Runs it with lists whose length is not known at compile time.
     template <class Params>
     void dispatch(glm::ivec2 size, const Params& params, std::span<const Binding> reads,
                   std::span<const Binding> writes) {
@@ -153,8 +155,8 @@ public:
     }
     void use(std::initializer_list<Binding> reads = {}) { useBytes({}, reads); }
 
-    /// A uniform outside any block, for what changes from draw to draw. A name that the program
-    /// does not have is std::logic_error where bindings are strict.
+    /// Sets a uniform outside any block, for what changes from draw to draw. A name that the
+    /// program does not have is std::logic_error where bindings are strict.
     void set(std::string_view uniform, int value);
     void set(std::string_view uniform, std::uint32_t value);
     void set(std::string_view uniform, float value);

@@ -34,14 +34,14 @@ public:
     PixelReadback& operator=(const PixelReadback&) = delete;
     ~PixelReadback();
 
-    /// The rectangle [min, min + size) of a texture, which must be inside it. Pixels are as in
+    /// Adds the rectangle [min, min + size) of a texture, which must be inside it. Pixels are as in
     /// GpuTexture::read(), but not of depth. Mistakes are std::logic_error, so is a batch that was
     /// submitted and not cleared.
     template <class Pixel>
     Region<Pixel> add(const GpuTexture& texture, glm::ivec2 min, glm::ivec2 size = glm::ivec2(1)) {
         return {addBytes(texture, min, size, sizeof(Pixel), kHoldsIntegers<Pixel>), size};
     }
-    /// The first value of a buffer, as one pixel.
+    /// Adds the first value of a buffer, as one pixel.
     template <class Value>
     Region<Value> add(const GpuBuffer& buffer) {
         static_assert(std::is_trivially_copyable_v<Value>);
@@ -53,7 +53,7 @@ public:
 
     bool empty() const { return used_ == 0; }
 
-    /// Row by row; until clear(). Before finish(): std::logic_error.
+    /// Returns the pixels of a region row by row; until clear(). Before finish(): std::logic_error.
     template <class Pixel>
     std::span<const Pixel> pixels(const Region<Pixel>& region) const {
         const auto count = std::size_t(region.size.x) * std::size_t(region.size.y);

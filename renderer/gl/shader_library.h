@@ -23,7 +23,8 @@ public:
     /// `common` defines go to every program, before its own.
     explicit ShaderLibrary(ShaderSource source, Defines common = {});
 
-    /// "denoise/atrous.comp", once for each set of defines. Throws Error when it does not compile.
+    /// Returns "denoise/atrous.comp", compiled once for each set of defines. Throws Error when it
+    /// does not compile.
     ComputeProgram& compute(std::string_view name, const Defines& defines = {});
     RasterProgram& raster(std::string_view vertexName, std::string_view fragmentName);
 
@@ -37,9 +38,9 @@ public:
     /// embedded.
     ReloadReport reload();
 
-    /// A hash of the texts, as they stand now, of all shaders whose names begin with one of these
-    /// ("lighting/"), with all that they include and the common defines. Throws Error where one
-    /// includes a file that is not there.
+    /// Returns a hash of the texts, as they stand now, of all shaders whose names begin with one of
+    /// these ("lighting/"), with all that they include and the common defines. Throws Error where
+    /// one includes a file that is not there.
     std::string fingerprint(std::span<const std::string_view> folders) const;
 
     const ShaderSource& source() const { return source_; }
@@ -70,9 +71,10 @@ private:
     Entries<RasterProgram> raster_;
 };
 
-/// The shaders of a folder; without one, of the source folder in a build for development that still
-/// finds it, else those of the executable. InputError for a folder that is not there. Defines
-/// FETCH_BY_IMAGE where that is the faster way to read a texture: see shaders/lib/fetch.glsl.
+/// Makes a library of the shaders of a folder; without one, of the source folder in a build for
+/// development that still finds it, else of those of the executable. Throws InputError for a folder
+/// that is not there. Defines FETCH_BY_IMAGE where that is the faster way to read a texture: see
+/// shaders/lib/fetch.glsl.
 ShaderLibrary makeShaderLibrary(const GlInfo& info,
                                 const std::optional<std::filesystem::path>& folder = {});
 

@@ -118,7 +118,7 @@ bool isError(std::string_view line) {
            line.find("ERROR") != std::string_view::npos;
 }
 
-/// Without "error: ", "error C1008: " or "error(#143) ", which every line of the log has.
+/// Removes "error: ", "error C1008: " or "error(#143) ", which every line of the log has.
 std::string_view withoutSeverity(std::string_view message) {
     if (!message.starts_with("error"))
         return message;

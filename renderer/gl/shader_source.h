@@ -25,15 +25,17 @@ struct ExpandedShader {
     std::vector<Line> lines;        ///< of the text, in order
 
     const std::string& name() const { return files.front(); }
-    /// "lib/bad.glsl:3" for a line of the text, counted from 1; the shader's name if there is none.
+    /// Returns "lib/bad.glsl:3" for a line of the text, counted from 1; the shader's name if there
+    /// is none.
     std::string locate(int line) const;
 };
 
-/// The first error of a driver's log in one line, "lib/bad.glsl:3: no function with name 'dott'",
-/// and how many more there are. Understands Mesa (0:43(9)), NVIDIA (0(43)) and the older 0:43:.
+/// Returns the first error of a driver's log in one line, "lib/bad.glsl:3: no function with name
+/// 'dott'", and how many more there are. Understands Mesa (0:43(9)), NVIDIA (0(43)) and the older
+/// 0:43:.
 std::string describeCompileError(const ExpandedShader& shader, std::string_view log);
 
-/// Where shader text comes from: a directory while developing, the executable once installed.
+/// The source of shader text: a directory while developing, the executable once installed.
 class ShaderSource {
 public:
     static ShaderSource fromDirectory(std::filesystem::path root);
@@ -41,13 +43,13 @@ public:
 
     bool isEmbedded() const { return root_.empty(); }
 
-    /// The file with what it includes: `#include "path from the root"` at the start of a line, each
-    /// file once. Drops `#pragma once`. The defines follow the #version line. It does not evaluate
-    /// conditions: an include inside an #ifdef is included all the same.
-    /// Throws Error for a file that is not there, naming the line that asks for it.
+    /// Returns the file with all that it includes: `#include "path from the root"` at the start of
+    /// a line, each file once. Drops `#pragma once`. The defines follow the #version line. It does
+    /// not evaluate conditions: an include inside an #ifdef is included all the same. Throws Error
+    /// for a file that is not there, naming the line that asks for it.
     ExpandedShader expand(std::string_view name, const Defines& defines = {}) const;
 
-    /// The same for a text that is not a file of the source but includes some; `name` is for
+    /// Does the same for a text that is not a file of the source but includes some; `name` is for
     /// messages.
     ExpandedShader expandText(std::string_view name, std::string_view text,
                               const Defines& defines = {}) const;

@@ -24,22 +24,23 @@ public:
     const std::string& label() const { return label_; }
     std::size_t bytes() const; ///< on the device
 
-    /// All pixels, row 0 first. Pixel is one of float, glm::vec2, glm::vec4, std::uint32_t,
-    /// glm::uvec2, glm::uvec4, glm::u8vec4, with the components of the format; RGBA16F takes and
-    /// gives vec4, Depth32F float. Anything else, or another size, is std::logic_error.
+    /// Replaces, or returns, all pixels, row 0 first. Pixel is one of float, glm::vec2, glm::vec4,
+    /// std::uint32_t, glm::uvec2, glm::uvec4, glm::u8vec4, with the components of the format;
+    /// RGBA16F takes and gives vec4, Depth32F float. Anything else, or another size, is
+    /// std::logic_error.
     template <class Pixel>
     void write(const Image<Pixel>& image);
     template <class Pixel>
     Image<Pixel> read() const;
 
-    /// One pixel, inside the texture; as read().
+    /// Returns one pixel, inside the texture; as read().
     template <class Pixel>
     Pixel readAt(glm::ivec2 p) const;
 
     void clear(); ///< to zero
     /// Takes all pixels of a texture of the same format and size; others are std::logic_error.
     void copyFrom(const GpuTexture& other);
-    /// A texture of its own with the same label, format, size and pixels.
+    /// Returns a texture of its own with the same label, format, size and pixels.
     GpuTexture copy() const;
 
 private:

@@ -45,10 +45,10 @@ public:
     const std::string& label() const { return label_; }
     std::size_t bytes() const; ///< on the device, of all levels
 
-    /// All pixels of one layer at level 0, row 0 first; as GpuTexture::write().
+    /// Replaces all pixels of one layer at level 0, row 0 first; as GpuTexture::write().
     template <class Pixel>
     void write(int layer, const Image<Pixel>& image);
-    /// All pixels of one layer; as GpuTexture::read().
+    /// Returns all pixels of one layer; as GpuTexture::read().
     template <class Pixel>
     Image<Pixel> read(int layer, int level = 0) const;
 
@@ -58,7 +58,7 @@ public:
     void makeMips();
     void clear(); ///< to zero, in all levels
 
-    /// Nearest and clamped at first.
+    /// Sets how shaders sample it. Nearest and clamped at first.
     void setSampling(const TextureSampling& sampling);
 
 private:

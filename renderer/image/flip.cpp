@@ -29,9 +29,9 @@ constexpr double kKneeOfLargest = 0.4;    // p_c: at this part of the largest co
 constexpr double kErrorAtKnee = 0.95;     // p_t: ... the error is this
 constexpr double kFeatureDegrees = 0.082; // w, section 4.2: the edge detector, peak to trough
 
-/// X, Y and Z over those of white, from linear sRGB; every row adds up to one. The rational numbers
-/// are the authors': they follow from the primaries of IEC 61966-2-1 with D65 at (0.31271,
-/// 0.32902), where the standard rounds to (0.3127, 0.3290).
+/// Returns the matrix to X, Y and Z over those of white, from linear sRGB; every row adds up to
+/// one. The rational numbers are the authors': they follow from the primaries of IEC 61966-2-1 with
+/// D65 at (0.31271, 0.32902), where the standard rounds to (0.3127, 0.3290).
 glm::dmat3 relativeXyzFromRgb() {
     return glm::transpose(glm::dmat3(glm::dvec3(10135552.0, 8788810.0, 4435075.0) / 23359437.0,
                                      glm::dvec3(2613072.0, 8788810.0, 887015.0) / 12288897.0,
@@ -49,7 +49,8 @@ glm::dvec3 xyzFromOpponent(const glm::dvec3& c) {
     return {y + c[1] / 500.0, y, y - c[2] / 200.0};
 }
 
-/// CIE L*a*b*, with a* and b* scaled by lightness: after Hunt, colorfulness grows with luminance.
+/// Converts to CIE L*a*b*, with a* and b* scaled by lightness: after Hunt, colorfulness grows with
+/// luminance.
 glm::dvec3 huntLabFromXyz(const glm::dvec3& xyz) {
     const auto root = [](double t) {
         constexpr double kDelta = 6.0 / 29.0;
@@ -60,20 +61,20 @@ glm::dvec3 huntLabFromXyz(const glm::dvec3& xyz) {
     return {lab[0], 0.01 * lab[0] * lab[1], 0.01 * lab[0] * lab[2]};
 }
 
-/// The distance HyAB: city block between lightness and chroma, which is Euclidean.
+/// Returns the distance HyAB: city block between lightness and chroma, which is Euclidean.
 double hyab(const glm::dvec3& p, const glm::dvec3& q) {
     const glm::dvec3 d = p - q;
     return std::abs(d[0]) + std::sqrt(d[1] * d[1] + d[2] * d[2]);
 }
 
-/// The exponentiated distance of the two corners of the sRGB cube that are furthest apart.
+/// Returns the exponentiated distance of the two corners of the sRGB cube that are furthest apart.
 double largestColorError() {
     const glm::dmat3 xyzFromRgb = relativeXyzFromRgb();
     return std::pow(hyab(huntLabFromXyz(xyzFromRgb[1]), huntLabFromXyz(xyzFromRgb[2])),
                     kColorExponent); // green and blue
 }
 
-/// Exponentiated, and mapped to [0, 1] in two straight pieces.
+/// Returns the exponentiated distance of two colors, mapped to [0, 1] in two straight pieces.
 double colorError(const glm::dvec3& p, const glm::dvec3& q, double largest) {
     const double error = std::pow(hyab(p, q), kColorExponent), knee = kKneeOfLargest * largest;
     return error < knee ? kErrorAtKnee / knee * error
@@ -90,7 +91,7 @@ Weights scaled(Weights weights, double factor) {
     return weights;
 }
 
-/// Positive weights then add up to 1, negative ones to -1.
+/// Scales weights so that the positive ones add up to 1, the negative ones to -1.
 Weights normalizedBySign(Weights weights) {
     double positive = 0.0, negative = 0.0;
     for (double weight : weights)
@@ -102,9 +103,9 @@ Weights normalizedBySign(Weights weights) {
     return weights;
 }
 
-/// The Gaussians of one channel. In space, a exp(-b f^2) is proportional to
-/// a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees; all together have the sum 1. A factor in front
-/// of one is split evenly between the axes.
+/// Returns the Gaussians of one channel. In space, a exp(-b f^2) is proportional to a sqrt(pi / b)
+/// exp(-pi^2 x^2 / b), x in degrees; all together have the sum 1. A factor in front of one is split
+/// evenly between the axes.
 std::vector<Weights> sensitivityWeights(const std::vector<Sensitivity>& gaussians,
                                         double pixelsPerDegree) {
     constexpr double kPi = std::numbers::pi;
@@ -164,7 +165,7 @@ Image<glm::dvec3> perceivedColor(const Planes& seen) {
     return result;
 }
 
-/// The length of the gradient whose parts are a feature along x and along y.
+/// Returns the length of the gradient whose parts are a feature along x and along y.
 Image<double> strength(Image<double> alongX, const Image<double>& alongY) {
     std::transform(alongX.pixels().begin(), alongX.pixels().end(), alongY.pixels().begin(),
                    alongX.pixels().begin(),

@@ -8,10 +8,10 @@
 
 namespace afterglow {
 
-/// How much an eye sees of the difference when it flips between two pictures, after Andersson,
-/// Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild: "ꟻLIP: A Difference Evaluator for
-/// Alternating Images", HPG 2020. The variant for displays (LDR), of display pixels: sRGB-encoded,
-/// alpha is ignored.
+/// The difference that an eye sees when it flips between two pictures, after Andersson, Nilsson,
+/// Akenine-Möller, Oskarsson, Åström, Fairchild: "ꟻLIP: A Difference Evaluator for Alternating
+/// Images", HPG 2020. The variant for displays (LDR), of display pixels: sRGB-encoded, alpha is
+/// ignored.
 ///
 /// The reference is prepared once for many images. Beyond the border the nearest pixel repeats, and
 /// filters end at three standard deviations (of the widest Gaussian for color), both as in the
@@ -24,11 +24,13 @@ public:
     /// is theirs, without a tangent: the width of a pixel over the distance, in degrees.
     static constexpr double kPixelsPerDegree = 0.7 * (3840.0 / 0.7) * 3.14159265358979324 / 180.0;
 
-    /// std::logic_error if the reference is empty, or the pixels per degree are not in [1, 1000].
+    /// Prepares a reference. Throws std::logic_error if it is empty, or the pixels per degree are
+    /// not in [1, 1000].
     explicit Flip(const Image<glm::u8vec4>& reference, double pixelsPerDegree = kPixelsPerDegree);
 
-    /// The error of each pixel in [0, 1], and its mean. std::logic_error for an image of another
-    /// size than the reference, and for a mask of another size or with nothing in it.
+    /// Returns the error of each pixel in [0, 1], and its mean. Throws std::logic_error for an
+    /// image of another size than the reference, and for a mask of another size or with nothing in
+    /// it.
     MeasuredImage compare(const Image<glm::u8vec4>& image, const Mask* mask = nullptr) const;
 
 private:
@@ -41,7 +43,7 @@ private:
         /// A Gaussian and its derivatives; along the other axis, a feature has the Gaussian.
         Weights smooth, edge, point;
     };
-    /// What an eye makes of a picture.
+    /// A picture as an eye sees it.
     struct Percept {
         Image<glm::dvec3> color;     ///< CIE L*a*b* after contrast sensitivity, adjusted after Hunt
         Image<double> edges, points; ///< how strong, in [0, sqrt(2)]

@@ -50,7 +50,7 @@ void requireSaneSize(const fs::path& path, std::int64_t width, std::int64_t heig
     }
 }
 
-/// What tinyexr allocates, given back whatever happens.
+/// The structures of tinyexr, which are freed however a function ends.
 struct Exr {
     EXRHeader header;
     EXRImage image;

@@ -47,7 +47,7 @@ double valueOf(const Color& pixel, int channel) {
     return double(pixel[channel]);
 }
 
-/// The mean of value(x, r) over all pairs that count.
+/// Returns the mean of value(x, r) over all pairs that count.
 template <class Pixel, class Value>
 double meanOfPairs(const Image<Pixel>& image, const Image<Pixel>& reference, const Mask* mask,
                    Value value) {

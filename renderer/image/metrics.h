@@ -8,20 +8,20 @@
 
 namespace afterglow {
 
-/// Which pixels count: those that are not 0.
+/// The pixels that count: those that are not 0.
 using Mask = Image<std::uint8_t>;
 
-/// The Rec. 709 luminance of every pixel. Alpha is ignored.
+/// Returns the Rec. 709 luminance of every pixel. Alpha is ignored.
 Image<float> luminanceOf(const Image<glm::vec4>& image);
 Image<float> channelOf(const Image<glm::vec4>& image, int channel);
 
-/// How many pixels of a mask count.
+/// Returns the number of pixels of a mask that count.
 std::size_t countOf(const Mask& mask);
 Mask both(const Mask& a, const Mask& b);                   ///< where the two are
 Image<float> within(Image<float> image, const Mask& mask); ///< 0 where the mask is
 
-/// The mean of a map, with a mask over its pixels. std::logic_error if none counts, or the mask is
-/// of another size.
+/// Returns the mean of a map, with a mask over its pixels. Throws std::logic_error if none counts,
+/// or the mask is of another size.
 double meanOf(const Image<float>& map, const Mask* mask = nullptr);
 
 /// A measure of each pixel, and its mean over those that count.
@@ -35,46 +35,47 @@ struct MeasuredImage {
 // With a mask only its pixels count, in every mean. Sums are in double precision. Images of unequal
 // size, or none that counts, are a std::logic_error. A NaN in an image that counts gives NaN.
 
-/// The root of the mean squared error, in the images' unit.
+/// Returns the root of the mean squared error, in the images' unit.
 double rmse(const Image<float>& image, const Image<float>& reference, const Mask* mask = nullptr);
 double rmse(const Image<glm::vec4>& image, const Image<glm::vec4>& reference,
             const Mask* mask = nullptr);
 
-/// Relative mean squared error: the mean of (x - r)^2 / (r^2 + 0.01 m), where m is the mean of r^2.
-/// Without the second term a few dark pixels would outvote all others; being relative itself, it
-/// makes the measure independent of exposure. A black reference gives 0 if the image is black as
-/// well, else infinity.
+/// Returns the relative mean squared error: the mean of (x - r)^2 / (r^2 + 0.01 m), where m is the
+/// mean of r^2. Without the second term a few dark pixels would outvote all others; being relative
+/// itself, it makes the measure independent of exposure. A black reference gives 0 if the image is
+/// black as well, else infinity.
 double relMse(const Image<float>& image, const Image<float>& reference, const Mask* mask = nullptr);
 double relMse(const Image<glm::vec4>& image, const Image<glm::vec4>& reference,
               const Mask* mask = nullptr);
 
-/// Peak signal to noise ratio in dB: 20 log10(peak / rmse). Infinity for equal images.
+/// Returns the peak signal to noise ratio in dB: 20 log10(peak / rmse). Infinity for equal images.
 double psnr(const Image<float>& image, const Image<float>& reference, double peak = 1.0,
             const Mask* mask = nullptr);
 double psnr(const Image<glm::vec4>& image, const Image<glm::vec4>& reference, double peak = 1.0,
             const Mask* mask = nullptr);
-/// Of display pixels as they are, with a peak of 255.
+/// Returns that of display pixels as they are, with a peak of 255.
 double psnr(const Image<glm::u8vec4>& image, const Image<glm::u8vec4>& reference,
             const Mask* mask = nullptr);
 
-/// How wrongly an image moves: the RMSE between its change since the frame before and the
+/// Returns how wrongly an image moves: the RMSE between its change since the frame before and the
 /// reference's change. A constant error does not count.
 double temporalError(const Image<glm::vec4>& now, const Image<glm::vec4>& before,
                      const Image<glm::vec4>& referenceNow, const Image<glm::vec4>& referenceBefore,
                      const Mask* mask = nullptr);
 
-/// What an eye sees flicker while nothing changes: the mean over pixels, and red, green and blue,
-/// of the standard deviation over time (of the population: divided by the number of frames). It
-/// keeps sums instead of frames.
+/// The flicker that an eye sees while nothing changes: the mean over pixels, and red, green and
+/// blue, of the standard deviation over time (of the population: divided by the number of frames).
+/// It keeps sums instead of frames.
 class Flicker {
 public:
-    /// std::logic_error if it is not of the size of the first. Alpha is ignored.
+    /// Adds a frame. Throws std::logic_error if it is not of the size of the first. Alpha is
+    /// ignored.
     void add(const Image<glm::vec4>& frame);
 
     int frames() const { return frames_; }
 
-    /// Of all frames so far; one does not flicker: 0. std::logic_error before the first, or if no
-    /// pixel counts.
+    /// Returns the flicker of all frames so far; of one it is 0. Throws std::logic_error before the
+    /// first, or if no pixel counts.
     double mean(const Mask* mask = nullptr) const;
 
 private:

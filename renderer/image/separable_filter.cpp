@@ -10,7 +10,7 @@ namespace {
 /// vectors also at -O2.
 constexpr int kBlock = 16;
 
-/// sums[x] = the sum over k of weights[k] * rowOf(k)[x], for x < width.
+/// Computes sums[x] = the sum over k of weights[k] * rowOf(k)[x], for x < width.
 template <class RowOf>
 void weightedSum(const Weights& weights, RowOf rowOf, int width, double* sums) {
     int first = 0;

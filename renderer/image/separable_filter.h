@@ -11,7 +11,7 @@ namespace afterglow {
 /// the pixel r after.
 using Weights = std::vector<double>;
 
-/// weightAt(i) for i = -radius, ..., radius.
+/// Returns weightAt(i) for i = -radius, ..., radius.
 template <class WeightAt>
 Weights weightsOf(int radius, WeightAt weightAt) {
     Weights weights;
@@ -20,7 +20,7 @@ Weights weightsOf(int radius, WeightAt weightAt) {
     return weights;
 }
 
-/// Each pixel becomes the weighted sum of its row, or column, around it. Beyond the border the
+/// Replaces each pixel by the weighted sum of its row, or column, around it. Beyond the border the
 /// nearest pixel repeats.
 Image<double> filterRows(const Image<double>& image, const Weights& weights);
 Image<double> filterColumns(const Image<double>& image, const Weights& weights);

@@ -25,7 +25,7 @@ Weights windowWeights() {
     return weights;
 }
 
-/// The weighted mean of valueAt(i), i the index of a pixel, over the window of each pixel.
+/// Returns the weighted mean of valueAt(i), i the index of a pixel, over the window of each pixel.
 template <class ValueAt>
 Image<double> windowMean(glm::ivec2 size, const Weights& weights, ValueAt valueAt) {
     Image<double> values(size);
@@ -59,7 +59,7 @@ void addChannel(const Image<glm::u8vec4>& image, const Image<glm::u8vec4>& refer
     }
 }
 
-/// The pixels whose window lies within the image, and of a small image those in the middle.
+/// Returns the pixels whose window lies within the image, and of a small image those in the middle.
 Mask innerPixels(glm::ivec2 size) {
     const glm::ivec2 border = glm::min(glm::ivec2(kRadius), (size - 1) / 2);
     Mask inner(size, 0);

@@ -5,11 +5,11 @@
 
 namespace afterglow {
 
-/// Structural similarity, after Wang, Bovik, Sheikh, Simoncelli: "Image Quality Assessment: From
-/// Error Visibility to Structural Similarity", IEEE Transactions on Image Processing 13(4), 2004,
-/// section III: a Gaussian window of 11 x 11 pixels with a standard deviation of 1.5, K1 = 0.01,
-/// K2 = 0.03, covariance of the population. Between -1 and 1; 1 for equal images, and it is
-/// symmetric.
+/// Returns the structural similarity, after Wang, Bovik, Sheikh, Simoncelli: "Image Quality
+/// Assessment: From Error Visibility to Structural Similarity", IEEE Transactions on Image
+/// Processing 13(4), 2004, section III: a Gaussian window of 11 x 11 pixels with a standard
+/// deviation of 1.5, K1 = 0.01, K2 = 0.03, covariance of the population. Between -1 and 1; 1 for
+/// equal images, and it is symmetric.
 ///
 /// Of display pixels: sRGB-encoded, 255 counts as 1, alpha is ignored. Departs from the paper,
 /// which is about gray: the map is the mean over red, green and blue.

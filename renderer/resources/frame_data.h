@@ -14,8 +14,8 @@ class FrameData {
 public:
     FrameData();
 
-    /// What does not come from the camera is set here; matrices, strata and historyValid by
-    /// begin().
+    /// The caller sets all that does not come from the camera; begin() sets matrices, strata and
+    /// historyValid.
     gpu::FrameUniforms uniforms{};
 
     /// Starts a frame of `size` pixels seen by `camera` and uploads the block. Uniforms that the
@@ -24,12 +24,12 @@ public:
     /// Uploads the block again after a change to `uniforms` within the frame.
     void upload();
     const GpuBuffer& block() const { return buffer_; } ///< what was uploaded last
-    /// The frame becomes the previous one.
+    /// Makes the frame the previous one.
     void end();
-    /// The next frame has no history.
+    /// Makes the next frame begin without history.
     void forget() { previous_.reset(); }
 
-    /// What a frame leaves for the next one; empty: nothing.
+    /// The part of a frame that the next one needs; empty: nothing.
     struct Matrices {
         glm::mat4 clipFromWorld, viewFromWorld;
     };

@@ -12,11 +12,11 @@ namespace afterglow {
 /// The part of the picture that one texel of an image covers.
 enum class ImageGrid { Pixels, Strata, Tiles };
 
-/// The number of strata that cover an image: ceil(size / 3).
+/// Returns the number of strata that cover an image: ceil(size / 3).
 glm::ivec2 strataOf(glm::ivec2 size);
-/// The number of tiles that cover an image: ceil(size / 8).
+/// Returns the number of tiles that cover an image: ceil(size / 8).
 glm::ivec2 tilesOf(glm::ivec2 size);
-/// The number of cells of a grid that cover an image.
+/// Returns the number of cells of a grid that cover an image.
 glm::ivec2 cellsOf(ImageGrid grid, glm::ivec2 size);
 
 /// An image that somebody needs from frame to frame, or within a frame.
@@ -32,16 +32,17 @@ struct ImageDecl {
 class ImageSet {
 public:
     ImageSet() = default;
-    /// `declared` outlives the set. Histories are zero.
+    /// Makes the histories, all zero. `declared` outlives the set.
     ImageSet(std::span<const ImageDecl> declared, glm::ivec2 size);
 
     std::span<const ImageDecl> declared() const { return declared_; }
     bool empty() const { return declared_.empty(); }
 
-    /// The image of this frame.
+    /// Returns the image of this frame.
     GpuTexture& operator[](std::size_t image);
     const GpuTexture* find(std::size_t image) const; ///< empty: nobody has asked for it
-    /// The image of the frame before; std::logic_error for an image that is no history.
+    /// Returns the image of the frame before. Throws std::logic_error for an image that is no
+    /// history.
     const GpuTexture& previous(std::size_t image) const;
 
     void swapHistories(); ///< current becomes previous
@@ -56,7 +57,7 @@ private:
     std::vector<GpuTexture> current_, previous_; ///< by place; empty ones where there are none yet
 };
 
-/// Bytes of all images that are declared, for a picture of this size.
+/// Returns the bytes of all images that are declared, for a picture of this size.
 std::size_t bytesOf(std::span<const ImageDecl> declared, glm::ivec2 size);
 
 } // namespace afterglow

@@ -53,7 +53,7 @@ struct RenderTargets {
     explicit RenderTargets(glm::ivec2 size);
 
     void swapHistories(); ///< current becomes previous, of all that are not empty; once a frame
-    /// So many signals; further ones begin with zeros.
+    /// Makes so many signals; further ones begin with zeros.
     void setSignals(std::size_t count);
     /// Returns the images that the next frame reads, without the histories of filters.
     std::vector<GpuTexture*> kept();

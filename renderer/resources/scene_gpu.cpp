@@ -14,7 +14,7 @@ namespace afterglow {
 
 namespace {
 
-/// The tile as numbers in the middle of their steps, so that their mean is 1/2.
+/// Loads the tile as numbers in the middle of their steps, so that their mean is 1/2.
 GpuTexture loadNoiseTile() {
     const auto bytes = embeddedFile("noise/blue_noise_128.pgm");
     if (!bytes)

@@ -20,7 +20,7 @@ public:
 
     /// Moves everything to a pose. `previous` is the pose of the frame before.
     void update(const Scene& scene, const Pose& pose, const Pose& previous);
-    /// What the user made of each light, by slot: 1 is nominal, 0 is off. Missing slots are 1.
+    /// Scales each light, by slot: 1 is nominal, 0 is off. Missing slots are 1.
     void setLightScales(std::span<const glm::vec3> scales);
 
     /// One draw of the raster pass.

@@ -11,7 +11,7 @@ namespace afterglow {
 /// specified in docs/pipeline.md.
 struct Surfaces {
     Surfaces() = default;
-    /// All zero: background. `prefix` begins the label of each image.
+    /// Makes all images zero: background. `prefix` begins the label of each image.
     explicit Surfaces(glm::ivec2 size, std::string_view prefix = {});
 
     glm::ivec2 size() const { return visibility.size(); }

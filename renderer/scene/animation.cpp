@@ -16,8 +16,9 @@ glm::quat quatFrom(glm::vec4 xyzw) {
     return glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z);
 }
 
-// Files store the times of keys as 32-bit floats, and one that stands for a frame may lie a little
-// above frame / rate. So keys are met in float; what lies between two is weighed in double.
+// Returns the value of a track at a time. Files store the times of keys as 32-bit floats, and one
+// that stands for a frame may lie a little above frame / rate. So keys are met in float; a value
+// between two is weighed in double.
 glm::vec4 valueAt(const Track& track, double seconds) {
     const float moment = float(seconds);
     const auto next = std::upper_bound(track.times.begin(), track.times.end(), moment,

@@ -17,8 +17,7 @@ struct Lens {
     bool operator==(const Lens&) const = default; ///< to the last bit
 };
 
-/// Where a camera stands, where it looks and through what. Right-handed, Y up; it looks along its
-/// -Z.
+/// The place, direction and lens of a camera. Right-handed, Y up; it looks along its -Z.
 struct Camera {
     glm::vec3 position{0.0f};                      ///< meters, world
     glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f}; ///< worldFromCamera rotation, unit length
@@ -27,14 +26,15 @@ struct Camera {
     glm::vec3 forward() const { return orientation * glm::vec3(0.0f, 0.0f, -1.0f); }
     glm::mat4 viewFromWorld() const;
 
-    /// Reversed depth in [0, 1]: 1 at the near plane, 0 at the far plane (or at infinity).
-    /// Clip y points up; the rasterizer's origin is the upper left corner (glClipControl).
+    /// Returns the projection to clip space, with reversed depth in [0, 1]: 1 at the near plane, 0
+    /// at the far plane (or at infinity). Clip y points up; the rasterizer's origin is the upper
+    /// left corner (glClipControl).
     glm::mat4 clipFromView(float aspect) const;
 
     bool operator==(const Camera&) const = default; ///< to the last bit
 };
 
-/// A camera at `eye` that looks at `target`, upright.
+/// Returns a camera at `eye` that looks at `target`, upright.
 Camera lookAt(glm::vec3 eye, glm::vec3 target, Lens lens = {});
 
 } // namespace afterglow

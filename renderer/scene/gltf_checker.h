@@ -24,7 +24,7 @@ public:
                 const std::optional<std::string>& binary)
         : path_(path), root_(document, ""), binary_(binary) {}
 
-    /// To be called once. Throws GltfFault.
+    /// Checks the whole document; to be called once. Throws GltfFault.
     GltfDocument check();
 
 private:

@@ -70,7 +70,7 @@ GltfContainer splitBinary(const fs::path& path, std::string_view bytes) {
     return parts;
 }
 
-/// %20 and the like. RFC 3986, section 2.1.
+/// Replaces %20 and the like. RFC 3986, section 2.1.
 std::string decodePercent(std::string_view text) {
     const auto digit = [](char c) {
         return c >= '0' && c <= '9'   ? c - '0'

@@ -30,7 +30,7 @@ void requireFinite(const Vec& value, const char* what, std::uint32_t i) {
     }
 }
 
-/// The direction of a triangle's front, as long as twice its area.
+/// Returns the direction of a triangle's front, as long as twice its area.
 glm::dvec3 areaVector(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
     return glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
 }

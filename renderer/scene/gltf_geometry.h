@@ -17,9 +17,10 @@ struct GltfArray {
     int componentType = 0; ///< 5120..5126, glTF 2.0, section 3.6.2.2
     int components = 0;    ///< 1 to 4
 
-    /// The components as numbers; whole ones as the fractions that they stand for (section 3.11).
+    /// Returns the components as numbers; whole ones as the fractions that they stand for (section
+    /// 3.11).
     glm::vec4 fraction(std::size_t i) const;
-    /// The first component, a whole number without sign.
+    /// Returns the first component, a whole number without sign.
     std::uint32_t whole(std::size_t i) const;
 };
 
@@ -35,8 +36,8 @@ struct GltfPrimitive {
 /// not finite.
 class GltfGeometry {
 public:
-    /// With the vertices that its triangles use, and no others; with flat normals if it had none;
-    /// and without the triangles that have no area: all of them may be gone.
+    /// Makes a mesh with the vertices that its triangles use, and no others; with flat normals if
+    /// it had none; and without the triangles that have no area: all of them may be gone.
     Mesh mesh(const GltfPrimitive& primitive);
 
     std::size_t withoutArea() const { return withoutArea_; } ///< triangles left out so far

@@ -302,7 +302,7 @@ void Importer::importTracks(std::vector<std::string>& warnings) {
     }
 }
 
-/// No vertex may be so far away that the square of a distance is no float any more.
+/// Throws GltfFault if a vertex is so far away that the square of a distance is no float any more.
 void requireNear(const Scene& scene) {
     constexpr double kFarthest = 1e18;
     const Pose pose = poseAt(scene, 0.0);

@@ -34,13 +34,13 @@ public:
     }
 
     bool has(const char* key) const { return value_->contains(key); }
-    /// A member that must be there.
+    /// Returns a member that must be there.
     GltfView at(const char* key) const;
-    /// A member that must be an object, if it is there.
+    /// Returns a member that must be an object, if it is there.
     std::optional<GltfView> object(const char* key) const;
-    /// The elements of a member that is an array; none if it is not there.
+    /// Returns the elements of a member that is an array; none if it is not there.
     std::vector<GltfView> array(const char* key) const;
-    /// The same, each an object.
+    /// Does the same for elements that must be objects.
     std::vector<GltfView> objects(const char* key) const;
 
     std::string text() const;
@@ -51,11 +51,11 @@ public:
     std::uint64_t whole(std::uint64_t low = 0, std::uint64_t high = kLargest) const;
     std::uint64_t whole(const char* key, std::uint64_t otherwise, std::uint64_t low = 0,
                         std::uint64_t high = kLargest) const;
-    /// An index into something of which there are `count`, called `things`.
+    /// Returns an index into something of which there are `count`, called `things`.
     std::uint32_t index(std::size_t count, const char* things) const;
     std::optional<std::uint32_t> index(const char* key, std::size_t count,
                                        const char* things) const;
-    /// Exactly `count` finite numbers in [low, high], if the member is there.
+    /// Returns exactly `count` finite numbers in [low, high], if the member is there.
     std::optional<std::vector<double>> numbers(const char* key, std::size_t count,
                                                double low = -kLargestFloat,
                                                double high = kLargestFloat) const;

@@ -32,7 +32,8 @@ struct Parts {
     Mesh tiles[4];
 };
 
-/// Numbers in [0, 1) that look random and are the same on every machine. PCG's output permutation.
+/// Returns a number in [0, 1) that looks random and is the same on every machine. PCG's output
+/// permutation.
 float scatter(std::uint32_t n) {
     n = n * 747796405u + 2891336453u;
     n = ((n >> ((n >> 28u) + 4u)) ^ n) * 277803737u;
@@ -40,7 +41,8 @@ float scatter(std::uint32_t n) {
     return float(n >> 8) / 16777216.0f;
 }
 
-/// A surface around a vertical axis: radius and height along a profile from the bottom to the top.
+/// Adds a surface around a vertical axis: radius and height along a profile from the bottom to the
+/// top.
 template <class Profile>
 void addTurned(Mesh& mesh, glm::dvec3 foot, Profile profile, int around, int along) {
     addSurface(mesh,
@@ -75,7 +77,7 @@ void addColumn(Mesh& stone, float x, float z) {
     addBox(stone, {x - 0.5f, 3.84f, z - 0.5f}, {x + 0.5f, kSpring, z + 0.5f});
 }
 
-/// One bay of the wall over the columns, with a round arch in it.
+/// Adds one bay of the wall over the columns, with a round arch in it.
 void addArch(Mesh& wall, float rowX, float middleZ) {
     const auto edge = [&](int i, float x) {
         const double turn = kPi * double(i) / kArchCells;
@@ -168,7 +170,7 @@ void addFloor(Parts& parts) {
     }
 }
 
-/// A frame of stone on a wall around a window, given by its low and high corner; `out` is the
+/// Adds a frame of stone on a wall around a window, given by its low and high corner; `out` is the
 /// direction into the hall.
 void addFrame(Mesh& stone, glm::vec3 low, glm::vec3 high, glm::vec3 out) {
     const glm::vec3 across = glm::abs(glm::cross(out, glm::vec3(0, 1, 0)));

@@ -10,7 +10,7 @@ namespace afterglow {
 
 namespace {
 
-/// A rectangle at height y, its front up or down.
+/// Returns a rectangle at height y, its front up or down.
 Mesh level(float y, glm::vec2 lowXz, glm::vec2 highXz, float front) {
     Mesh mesh;
     addQuadFacing(mesh, {0.0f, front, 0.0f}, {lowXz.x, y, lowXz.y}, {highXz.x, y, lowXz.y},
@@ -26,7 +26,7 @@ Mesh lampOf(float y, float halfSize, glm::vec2 center = glm::vec2(0.0f)) {
     return level(y, center - halfSize, center + halfSize, -1.0f);
 }
 
-/// An upright prism over a quadrilateral, given by its corners (x, z).
+/// Returns an upright prism over a quadrilateral, given by its corners (x, z).
 Mesh prism(const glm::vec2 (&base)[4], float height) {
     Mesh mesh;
     const auto at = [&](int i, float y) { return glm::vec3(base[i % 4].x, y, base[i % 4].y); };

@@ -98,14 +98,14 @@ struct Pose {
     std::vector<glm::mat4> worldFromNode; ///< one per Scene::nodes
 };
 
-/// The pose at a time in seconds, from the time alone. Tracks hold their last value after their
-/// end.
+/// Returns the pose at a time in seconds, from the time alone. Tracks hold their last value after
+/// their end.
 Pose poseAt(const Scene& scene, double seconds);
 
-/// The length of the longest track in seconds; 0 if nothing moves.
+/// Returns the length of the longest track in seconds; 0 if nothing moves.
 double duration(const Scene& scene);
 
-/// For each node, whether a track moves it or one of its ancestors.
+/// Returns for each node whether a track moves it or one of its ancestors.
 std::vector<bool> movingNodes(const Scene& scene);
 
 Camera cameraAt(const Scene& scene, const Pose& pose, std::size_t index = 0);
@@ -115,8 +115,8 @@ struct Bounds {
     float extent() const { return glm::length(max - min); }
 };
 
-/// The world-space box around all instances. A scene without triangles has an empty box at the
-/// origin.
+/// Returns the world-space box around all instances. A scene without triangles has an empty box at
+/// the origin.
 Bounds boundsOf(const Scene& scene, const Pose& pose);
 
 /// Makes a scene complete: names area lights from emissive instances (one light per node, names

@@ -13,13 +13,13 @@ class SceneBuilder {
 public:
     explicit SceneBuilder(std::string name) { scene_.name = std::move(name); }
 
-    /// A diffuse material.
+    /// Adds a diffuse material.
     std::uint32_t material(std::string name, glm::vec3 baseColor);
-    /// A material that only shines, from its front.
+    /// Adds a material that only shines, from its front.
     std::uint32_t glow(std::string name, glm::vec3 radiance);
     std::uint32_t node(std::string name, glm::vec3 translation = glm::vec3(0.0f), int parent = -1);
     void add(Mesh mesh, std::uint32_t material, std::uint32_t node);
-    /// A node of this name with one shining mesh: one light of this name.
+    /// Adds a node of this name with one shining mesh: one light of this name.
     void light(const std::string& name, Mesh mesh, glm::vec3 radiance);
     void camera(const Camera& camera);
     void track(Track track) { scene_.tracks.push_back(std::move(track)); }

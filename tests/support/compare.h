@@ -75,7 +75,7 @@ Comparison compareNumbers(const Numbers& actual, const Numbers& expected, Tolera
 /// Returns the mean of red, green and blue over all pixels, in [0, 255].
 double meanOf(const Image<glm::u8vec4>& picture);
 
-/// Numbers, GLM vectors, ranges of either, and images; float and double go together.
+/// Compares numbers, GLM vectors, ranges of either, and images; float and double go together.
 template <class Actual, class Expected>
 Comparison compare(const Actual& actual, const Expected& expected, Tolerance tolerance) {
     return detail::compareNumbers(detail::numbersOf(actual), detail::numbersOf(expected),
@@ -84,7 +84,8 @@ Comparison compare(const Actual& actual, const Expected& expected, Tolerance tol
 
 } // namespace afterglow
 
-/// CHECK_CLOSE(actual, expected, Tolerance{.max = 1e-5}). Include doctest first or after.
+/// Checks as in CHECK_CLOSE(actual, expected, Tolerance{.max = 1e-5}). Include doctest first or
+/// after.
 #define CHECK_CLOSE(...)                                                                           \
     do {                                                                                           \
         const ::afterglow::Comparison comparison_ = ::afterglow::compare(__VA_ARGS__);             \

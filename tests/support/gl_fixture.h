@@ -6,21 +6,22 @@
 
 namespace afterglow {
 
-/// The back end that AFTERGLOW_CONTEXT names: "osmesa" (also when it is not set), "egl" or "auto".
+/// Returns the back end that AFTERGLOW_CONTEXT names: "osmesa" (also when it is not set), "egl" or
+/// "auto".
 Backend testBackend();
 
-/// The one context of a test process, made when it is first asked for. Bindings are strict from
-/// then on. Ask again in every test case: a test may have released it.
+/// Returns the one context of a test process, made when it is first asked for. Bindings are strict
+/// from then on. Ask again in every test case: a test may have released it.
 GlContext& testContext();
 
-/// The shaders as the program itself finds them, in testContext().
+/// Returns the shaders as the program itself finds them, in testContext().
 ShaderLibrary& testShaders();
 
 /// Ends the context and the library, for a test that makes contexts of its own, and for main().
 void releaseTestContext();
 
-/// Messages that glMessageCount() counts and that no ExpectGlMessages covers. The process fails
-/// when there are any, and says in which test case; a test need do nothing for it.
+/// Returns the number of messages that glMessageCount() counts and that no ExpectGlMessages covers.
+/// The process fails when there are any, and names the test case; a test need do nothing for it.
 int unexpectedGlMessages();
 
 /// Fails the test case, where it stands, when OpenGL complains between its construction and its

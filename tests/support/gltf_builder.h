@@ -23,7 +23,8 @@ struct GltfBuilder {
     int indices16(const std::vector<std::uint16_t>& values);
     int indices32(const std::vector<std::uint32_t>& values);
 
-    /// A mesh of one primitive, and a node with it in the scene. Returns the index of the node.
+    /// Adds a mesh of one primitive, and a node with it in the scene. Returns the index of the
+    /// node.
     int shape(const nlohmann::json& primitive);
 
     std::string gltf() const; ///< with the buffer as a data URI
@@ -35,8 +36,8 @@ private:
                  const std::string& type);
 };
 
-/// Two triangles of different size with normals and indices, a shining material, a camera, a child
-/// node, and an animation of translation and rotation: one of everything that is imported.
+/// Builds two triangles of different size with normals and indices, a shining material, a camera, a
+/// child node, and an animation of translation and rotation: one of everything that is imported.
 GltfBuilder completeGltf();
 
 } // namespace afterglow

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Says which test cases OpenGL complained in.
+/// Names the test cases that OpenGL complained in.
 class GlListener final : public doctest::IReporter {
 public:
     explicit GlListener(const doctest::ContextOptions&) {}

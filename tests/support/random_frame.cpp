@@ -32,7 +32,8 @@ public:
         const float z = uniform(-extent, extent);
         return {x, y, z};
     }
-    /// A multiple of 1/32, so that sums with pixel coordinates and bilinear weights are exact.
+    /// Returns a multiple of 1/32, so that sums with pixel coordinates and bilinear weights are
+    /// exact.
     float thirtySeconds(int extent) { return float(below(2 * 32 * extent + 1) - 32 * extent) / 32; }
 
 private:
@@ -82,7 +83,7 @@ std::vector<Shape> randomShapes(Dice& dice, glm::ivec2 size) {
     return shapes;
 }
 
-/// The topmost shape at pixel p, of those moved by `time` times their motion.
+/// Returns the topmost shape at pixel p, of those moved by `time` times their motion.
 std::optional<int> shapeAt(const std::vector<Shape>& shapes, glm::vec2 p, float time) {
     for (int i = int(shapes.size()) - 1; i >= 0; --i) {
         const Shape& s = shapes[std::size_t(i)];
@@ -99,12 +100,12 @@ glm::uvec4 visibilityOf(Dice& dice, int shape) {
             std::bit_cast<std::uint32_t>(v)};
 }
 
-/// The normal of `s`, a little bumpy: within 0.06 rad.
+/// Returns the normal of `s`, a little bumpy: within 0.06 rad.
 glm::vec3 bumpyNormal(Dice& dice, const Shape& s) {
     return glm::normalize(s.normal + dice.inCube(0.06f / std::sqrt(3.0f)));
 }
 
-/// Noise of a path tracer at one sample: shadow, light, now and then a bright one.
+/// Returns noise of a path tracer at one sample: shadow, light, now and then a bright one.
 glm::vec4 noisyRadiance(Dice& dice, const Shape& s) {
     const float level = dice.chance(0.2f)    ? 0.0f
                         : dice.chance(0.05f) ? dice.uniform(2.0f, 5.0f)

@@ -30,8 +30,8 @@ public:
     LightState& light(std::string_view name);
     void allLightsOffBut(std::string_view name);
 
-    /// The converged demodulated signal of the moment of the last frame. Ends the sequence's
-    /// history.
+    /// Returns the converged demodulated signal of the moment of the last frame. Ends the
+    /// sequence's history.
     Image<glm::vec4> reference(int samples);
 
     Renderer& renderer() { return renderer_; }
@@ -45,10 +45,10 @@ private:
     std::uint32_t frame_ = 0;
 };
 
-/// Settings with a filter and a signal, all else at its default.
+/// Returns settings with a filter and a signal, all else at its default.
 Settings settingsOf(Filter filter, Signal signal = Signal::Both);
 
-/// An image of a filter of SVGF's family, which it has made.
+/// Returns an image of a filter of SVGF's family, which it has made.
 inline const GpuTexture& imageOf(const RenderTargets& targets, svgf::Image image,
                                  std::size_t state = 0, std::size_t signal = 0) {
     const GpuTexture* const found = targets.filters.at(state).own.at(signal).find(image);
@@ -57,7 +57,7 @@ inline const GpuTexture& imageOf(const RenderTargets& targets, svgf::Image image
     return *found;
 }
 
-/// The number of pixels whose bits differ.
+/// Returns the number of pixels whose bits differ, -1 for images of unequal size.
 template <class Pixel>
 int differingPixels(const Image<Pixel>& a, const Image<Pixel>& b) {
     if (a.size() != b.size())

@@ -5,7 +5,7 @@
 
 namespace afterglow {
 
-/// The root of the checkout that the tests were built from.
+/// Returns the root of the checkout that the tests were built from.
 std::filesystem::path sourceDir();
 
 } // namespace afterglow

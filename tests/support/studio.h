@@ -12,11 +12,11 @@ namespace afterglow::test {
 struct Studio {
     Studio(Scene scene, glm::ivec2 size, Signal signal = Signal::Both);
 
-    /// Seen by `camera`, with seed 5. The lights must outlive it.
+    /// Returns the input of a frame seen by `camera`, with seed 5. The lights must outlive it.
     FrameInput at(double seconds, const std::vector<LightState>& lights) const;
     FrameInput at(double seconds) const { return at(seconds, allOn); }
 
-    /// The converged signal; see Renderer::beginReference().
+    /// Returns the converged signal; see Renderer::beginReference().
     Image<glm::vec4> reference(const FrameInput& seen, const FrameInput& world, int samples);
     Image<glm::vec4> reference(const FrameInput& moment, int samples) {
         return reference(moment, moment, samples);

@@ -9,7 +9,7 @@
 
 namespace afterglow {
 
-/// The warnings of the log while it lives; nothing is written to standard error.
+/// Collects the warnings of the log while it lives; nothing is written to standard error.
 struct Warnings {
     Warnings() {
         before = setLogSink([this](LogLevel level, std::string_view text) {

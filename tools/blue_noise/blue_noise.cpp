@@ -31,7 +31,7 @@ constexpr double kEnergyScale = 281474976710656.0;
 // The share of ones in the pattern at the start. Ulichney: any number below one half will do.
 constexpr int kStartDivisor = 10;
 
-/// A bijection of 32 bits: three rounds of multiply and shift.
+/// Maps 32 bits one to one: three rounds of multiply and shift.
 std::uint32_t scramble(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -77,8 +77,8 @@ public:
             rescan(wrapped({0, first + i}).y);
     }
 
-    /// The set pixel with the most, and the free pixel with the least, energy around it. There must
-    /// be one.
+    /// Returns the set pixel with the most, and the free pixel with the least, energy around it.
+    /// There must be one.
     glm::ivec2 tightestCluster() const { return best(bestCluster_, 1); }
     glm::ivec2 largestVoid() const { return best(bestVoid_, -1); }
 
@@ -94,7 +94,7 @@ private:
         return {(p.x % edge_ + edge_) % edge_, (p.y % edge_ + edge_) % edge_};
     }
 
-    /// Whether a comes before b where more energy (sign 1) or less (sign -1) wins.
+    /// Returns whether a comes before b where more energy (sign 1) or less (sign -1) wins.
     bool beats(glm::ivec2 a, glm::ivec2 b, int sign) const {
         const std::int64_t difference = sign * (energy_(a) - energy_(b));
         return difference != 0 ? difference > 0 : priority_(a) > priority_(b);
@@ -129,9 +129,9 @@ private:
     Image<std::uint32_t> priority_;
 };
 
-/// A random pattern of `count` points, evened out: the tightest cluster's point moves to the
-/// largest void until it would come back to where it was. That happens: every other move lowers the
-/// energy of the whole pattern or, at equal energy, raises the sum of its priorities.
+/// Returns a random pattern of `count` points, evened out: the tightest cluster's point moves to
+/// the largest void until it would come back to where it was. That happens: every other move lowers
+/// the energy of the whole pattern or, at equal energy, raises the sum of its priorities.
 Pattern startPattern(int edge, int count, std::uint32_t seed) {
     Pattern pattern(edge, seed);
     std::vector<glm::ivec2> pixels;
