@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/passes/temporal_pass.h"
 
+#include <array>
+#include <string>
+#include <vector>
+
 namespace afterglow {
 namespace {
 
-std::array<Binding, 12> readsOf(const FrameContext& frame, const TemporalPass::Inputs& in) {
+constexpr const char* kShader = "denoise/temporal.comp";
+
+std::vector<Binding> readsOf(const FrameContext& frame, const TemporalPass::Inputs& in) {
     return {frame.block(),
             {"raw", in.raw},
             {"visibility", in.visibility},
@@ -14,15 +20,28 @@ std::array<Binding, 12> readsOf(const FrameContext& frame, const TemporalPass::I
             {"slope", in.slope},
             {"motion", in.motion},
             {"previousColor", in.previousColor},
-            {"previousMoments", in.previousMoments},
-            {"lambda", in.lambda},
-            {"luminanceRange", in.luminanceRange}};
+            {"previousMoments", in.previousMoments}};
+}
+
+/// Returns what compiles the shader for a plan. What has no effect has one value, so that plans
+/// share a program where they can.
+Defines definesFor(const gpu::TemporalParams& params) {
+    const bool fromGradient = params.lambdaSource == gpu::kLambdaFromGradient;
+    return {{"FOR_PLAN", "1"},
+            {"LAMBDA_SOURCE", std::to_string(params.lambdaSource)},
+            {"LAMBDA_FETCH", std::to_string(fromGradient ? params.lambdaFetch : 0)},
+            {"LAMBDA_USE", std::to_string(params.lambdaUse)},
+            {"HISTORY_LAW", std::to_string(params.historyLaw)},
+            {"CLAMP_RADIUS", params.clampRadius < 0 ? "-1" : "params.clampRadius"}};
 }
 
 } // namespace
 
-TemporalPass::TemporalPass(ShaderLibrary& shaders)
-    : shaders_(shaders), program_(shaders.compute("denoise/temporal.comp")) {}
+TemporalPass::TemporalPass(ShaderLibrary& shaders) : shaders_(shaders) {}
+
+void TemporalPass::prepare(const gpu::TemporalParams& params) {
+    shaders_.compute(kShader, definesFor(params));
+}
 
 void TemporalPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                        const gpu::TemporalParams& params) {
@@ -30,17 +49,26 @@ void TemporalPass::run(FrameContext& frame, const Inputs& in, const Outputs& out
     const std::array<Binding, 3> writes{Binding{"accumulated", out.accumulated},
                                         {"moments", out.moments},
                                         {"control", out.control}};
-    program_.dispatch(out.accumulated.size(), params, readsOf(frame, in), writes);
+    std::vector<Binding> reads = readsOf(frame, in);
+    if (params.lambdaSource == gpu::kLambdaFromGradient)
+        reads.emplace_back("lambda", in.lambda);
+    if (params.lambdaSource == gpu::kLambdaFromRange)
+        reads.emplace_back("luminanceRange", in.luminanceRange);
+    shaders_.compute(kShader, definesFor(params))
+        .dispatch(out.accumulated.size(), params, reads, writes);
 }
 
 TemporalPass::Findings::Region TemporalPass::inspect(FrameContext& frame, const Inputs& in,
                                                      const gpu::TemporalParams& params,
                                                      glm::ivec2 pixel, PixelReadback& readback) {
-    // Compiled when it is first needed: most runs inspect nothing.
-    ComputeProgram& program = shaders_.compute("denoise/temporal.comp", inspecting());
+    // Compiled when it is first needed, for all plans: most runs inspect nothing.
+    ComputeProgram& program = shaders_.compute(kShader, inspecting());
+    std::vector<Binding> reads = readsOf(frame, in);
+    reads.emplace_back("lambda", in.lambda);
+    reads.emplace_back("luminanceRange", in.luminanceRange);
     const std::array<Binding, 1> writes{findings_.start(pixel, in.raw.size())};
     const auto scope = frame.timer.scope(frame.prefix + "inspect temporal");
-    program.dispatch(glm::ivec2(1), params, readsOf(frame, in), writes);
+    program.dispatch(glm::ivec2(1), params, reads, writes);
     return findings_.copyTo(readback);
 }
 

@@ -37,6 +37,8 @@ public:
     using Findings = FindingsBuffer<gpu::TemporalFindings>;
 
     explicit TemporalPass(ShaderLibrary& shaders);
+    /// Compiles the program for a plan, which run() does otherwise when it first meets the plan.
+    void prepare(const gpu::TemporalParams& params);
     void run(FrameContext& frame, const Inputs& in, const Outputs& out,
              const gpu::TemporalParams& params);
 
@@ -48,7 +50,6 @@ public:
 
 private:
     ShaderLibrary& shaders_;
-    ComputeProgram& program_;
     Findings findings_;
 };
 

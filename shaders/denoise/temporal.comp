@@ -9,6 +9,8 @@
 // 2016), lambda from percentiles of one frame (merian), and lambda that cuts the history length
 // (NRD).
 // With INSPECT the outputs are one pixel's TemporalFindings; see lib/inspect.glsl.
+// With FOR_PLAN the choices of a plan are constants, and what it does not use is compiled away;
+// without it they are those of the parameters. The results are the same bits.
 
 #include "lib/color.glsl"
 #include "lib/fetch.glsl"
@@ -21,6 +23,14 @@ Inspectable(TemporalFindings);
 layout(std140, binding = kPassBlock) uniform Params {
     TemporalParams params;
 };
+
+#ifndef FOR_PLAN
+#define LAMBDA_SOURCE params.lambdaSource
+#define LAMBDA_FETCH params.lambdaFetch
+#define LAMBDA_USE params.lambdaUse
+#define HISTORY_LAW params.historyLaw
+#define CLAMP_RADIUS params.clampRadius
+#endif
 
 Float4Texture(raw); // a: luminance
 Uint4Texture(visibility);
@@ -133,8 +143,8 @@ vec3 clampToNeighborhood(vec3 color, ivec2 p) {
     vec3 mean = vec3(0.0), squares = vec3(0.0); // Welford 1962: no difference of large sums
     float count = 0.0;
     // A loop that does not begin costs nothing; see variance.comp.
-    for (int y = -params.clampRadius; y <= params.clampRadius; ++y) {
-        for (int x = -params.clampRadius; x <= params.clampRadius; ++x) {
+    for (int y = -CLAMP_RADIUS; y <= CLAMP_RADIUS; ++y) {
+        for (int x = -CLAMP_RADIUS; x <= CLAMP_RADIUS; ++x) {
             ivec2 q = p + ivec2(x, y);
             if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, frame.size)))
                 continue;
@@ -162,7 +172,7 @@ float lambdaOfRange(ivec2 p, float historyLuminance) {
     vec2 f = position - vec2(corner);
     vec2 range = vec2(0.0);
     float weightSum = 0.0;
-    int tiles = params.lambdaSource == kLambdaFromRange ? 4 : 0;
+    int tiles = LAMBDA_SOURCE == kLambdaFromRange ? 4 : 0;
     for (int i = 0; i < tiles; ++i) {
         ivec2 place = ivec2(i & 1, i >> 1);
         vec4 tile =
@@ -185,7 +195,7 @@ float lambdaOf(ivec2 s) {
 float lambdaOfStrata(ivec2 p) {
     ivec2 s = p / int(kStratumSize);
     NOTE(lambdaStratum, s);
-    if (params.lambdaFetch == kLambdaMax) {
+    if (LAMBDA_FETCH == kLambdaMax) {
         float largest = 0.0;
         for (int y = -1; y <= 1; ++y)
             for (int x = -1; x <= 1; ++x) {
@@ -197,7 +207,7 @@ float lambdaOfStrata(ivec2 p) {
             }
         return largest;
     }
-    if (params.lambdaFetch == kLambdaBilinear) {
+    if (LAMBDA_FETCH == kLambdaBilinear) {
         // Centers of strata lie at 3 s + 3/2 in pixel coordinates.
         vec2 position = (vec2(p) + 0.5) / float(kStratumSize) - 0.5;
         ivec2 corner = ivec2(floor(position));
@@ -209,9 +219,9 @@ float lambdaOfStrata(ivec2 p) {
 }
 
 float lambdaAt(ivec2 p, bool hasHistory, float historyLuminance) {
-    if (params.lambdaSource == kLambdaFromGradient)
+    if (LAMBDA_SOURCE == kLambdaFromGradient)
         return lambdaOfStrata(p);
-    if (params.lambdaSource == kLambdaFromRange && hasHistory)
+    if (LAMBDA_SOURCE == kLambdaFromRange && hasHistory)
         return lambdaOfRange(p, historyLuminance);
     return 0.0;
 }
@@ -220,9 +230,9 @@ float nextSamples(float samples, float alpha, float l) {
     if (samples == 0.0)
         return 1.0;
     float next = 1.0 / ((1.0 - alpha) * (1.0 - alpha) / samples + alpha * alpha);
-    if (params.historyLaw == kHistoryFrames)
+    if (HISTORY_LAW == kHistoryFrames)
         next = samples + 1.0;
-    if (params.historyLaw == kHistoryPower)
+    if (HISTORY_LAW == kHistoryPower)
         next = samples * pow(1.0 - l, 10.0) + 1.0;
     return min(next, params.maxHistory);
 }
@@ -232,11 +242,6 @@ void main() {
     if (any(greaterThanEqual(p, frame.size)))
         return;
     vec4 guide = fetch(guides, p);
-    if (guide.w == 0.0) {
-        store(p, vec4(0.0), vec4(0.0), vec4(0.0));
-        return;
-    }
-
     vec4 current = fetch(raw, p);
     vec2 currentMoments = vec2(current.a, current.a * current.a);
     History history = fetchHistory(p, guide.xyz);
@@ -250,7 +255,7 @@ void main() {
 
     float fetchedLambda = lambdaAt(p, hasHistory, historyLuminance);
     float l = fetchedLambda;
-    if (params.lambdaUse == kLambdaCuts) {
+    if (LAMBDA_USE == kLambdaCuts) {
         float confidence = (1.0 - l) * (1.0 - l);
         // mix(confidence, 1, 1 / (N + 1)), in a form that is exactly 1 for a confidence of 1.
         history.samples *= confidence + (1.0 - confidence) / (history.samples + 1.0);
@@ -268,6 +273,10 @@ void main() {
     vec3 color = (1.0 - alpha) * history.color + alpha * current.rgb;
     vec2 blended = (1.0 - alphaMoments) * history.moments + alphaMoments * currentMoments;
     float samples = nextSamples(history.samples, alpha, l);
-    store(p, vec4(color, historyLuminance), vec4(blended, samples, 0.0),
-          vec4(fetchedLambda, alpha, samples, float(history.reason)));
+    // The background is computed as well, and stored by one instruction with the rest: on llvmpipe
+    // a second path costs more.
+    bool isSurface = guide.w != 0.0;
+    store(p, isSurface ? vec4(color, historyLuminance) : vec4(0.0),
+          isSurface ? vec4(blended, samples, 0.0) : vec4(0.0),
+          isSurface ? vec4(fetchedLambda, alpha, samples, float(history.reason)) : vec4(0.0));
 }

@@ -33,9 +33,18 @@ std::vector<Variant> allVariants() {
         const std::string name = std::filesystem::relative(entry.path(), root).generic_string();
         std::vector<Defines> defines{{}};
         if (name.find("atrous") != std::string::npos)
-            defines = {{{"KERNEL_RADIUS", "1"}}, {{"KERNEL_RADIUS", "2"}}};
+            defines = {{{"KERNEL_RADIUS", "1"}},
+                       {{"KERNEL_RADIUS", "2"}},
+                       {{"KERNEL_RADIUS", "2"}, {"NORMAL_SQUARINGS", "7"}}};
         if (name == "denoise/temporal.comp" || name == "denoise/gradient.comp")
             defines = {{}, {{"INSPECT", "1"}}};
+if (name == "denoise/temporal.comp")
+            defines.push_back({{"FOR_PLAN", "1"},
+                               {"LAMBDA_SOURCE", "0"},
+                               {"LAMBDA_FETCH", "0"},
+                               {"LAMBDA_USE", "0"},
+                               {"HISTORY_LAW", "0"},
+                               {"CLAMP_RADIUS", "-1"}});
         if (name == "lighting/rays.comp" || name == "lighting/trace.comp")
             defines = {{{"SHADOWS", "1"}, {"FIRST", "1"}},
                        {{"AMBIENT_OCCLUSION", "1"}},

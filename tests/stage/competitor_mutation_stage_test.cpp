@@ -69,7 +69,7 @@ TEST_CASE("errors planted in the clamp of the history do not pass") {
             return measureTemporal(shaders, {clamped(1, 0.5f), clamped(3, 1.0f)});
         },
         {{"background in the neighborhood", file, "if (fetch(guides, q).w == 0.0)", "if (false)"},
-         {"half of the neighborhood", file, "x <= params.clampRadius", "x <= 0"},
+         {"half of the neighborhood", file, "x <= CLAMP_RADIUS", "x <= 0"},
          {"variance of a sample", file, "squares / max(count, 1.0)",
           "squares / max(count - 1.0, 1.0)"},
          {"deviation not rooted", file, "sqrt(squares / max(count, 1.0))",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <vector>
+
 #include "tests/reference/temporal.h"
 #include "tests/stage/stage_runner.h"
 #include "tests/support/compare.h"
@@ -36,6 +38,38 @@ reference::TemporalResult expect(const RandomFrame& frame, bool historyValid,
                                 frame.previousColor, frame.previousMoments, frame.lambda,
                                 historyValid, &ranges},
                                params);
+}
+
+/// Plans that use each choice at least once. The frame's pass is compiled for a plan; where a pixel
+/// is inspected, the same program serves them all.
+std::vector<gpu::TemporalParams> plans() {
+    std::vector<gpu::TemporalParams> all;
+    const auto add = [&](auto change) {
+        all.push_back(kParams);
+        change(all.back());
+    };
+    for (const int choice : {0, 1, 2}) { // of three
+        add([&](gpu::TemporalParams& p) { p.lambdaFetch = p.historyLaw = choice; });
+        add([&](gpu::TemporalParams& p) {
+            p.lambdaSource = gpu::kLambdaFromNothing;
+            p.historyLaw = choice;
+        });
+        add([&](gpu::TemporalParams& p) {
+            p.lambdaSource = gpu::kLambdaFromRange;
+            p.historyLaw = choice;
+        });
+    }
+    add([](gpu::TemporalParams& p) { p.lambdaUse = gpu::kLambdaCuts; });
+    add([](gpu::TemporalParams& p) {
+        p.lambdaSource = gpu::kLambdaFromRange;
+        p.lambdaUse = gpu::kLambdaCuts;
+    });
+    add([](gpu::TemporalParams& p) { p.clampRadius = 1; });
+    add([](gpu::TemporalParams& p) {
+        p.lambdaSource = gpu::kLambdaFromNothing;
+        p.clampRadius = 0;
+    });
+    return all;
 }
 
 /// The largest difference in color and moments (first) and in control (second).
@@ -128,18 +162,7 @@ TEST_CASE("the reason for losing history is told exactly") {
 TEST_CASE(
     "inspected, the temporal pass computes at every pixel the bits that it has in the frame") {
     const GlCheck noGlMessages;
-    std::vector<gpu::TemporalParams> all;
-    for (const int fetch : {gpu::kLambdaNearest, gpu::kLambdaBilinear, gpu::kLambdaMax}) {
-        all.push_back(kParams);
-        all.back().lambdaFetch = fetch;
-        all.back().historyLaw = fetch; // there are three of both
-    }
-    all.push_back(kParams);
-    all.back().lambdaUse = gpu::kLambdaCuts;
-    all.push_back(kParams);
-    all.back().lambdaSource = gpu::kLambdaFromRange;
-    all.push_back(kParams);
-    all.back().clampRadius = 1;
+    const std::vector<gpu::TemporalParams> all = plans();
     for (const bool historyValid : {true, false})
         for (const gpu::TemporalParams& params : all) {
             const RandomFrame frame({61, 37}, 15);
