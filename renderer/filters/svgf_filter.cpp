@@ -25,7 +25,22 @@ SvgfFilter::SvgfFilter(ShaderLibrary& shaders)
     : gradient_(shaders), gradientSpline_(shaders, Kernel::B3Spline5x5),
       gradientBox_(shaders, Kernel::Box3x3), lambda_(shaders), luminanceRange_(shaders),
       temporal_(shaders), variance_(shaders), atrousSpline_(shaders, Kernel::B3Spline5x5),
-      atrousBox_(shaders, Kernel::Box3x3) {}
+      atrousBox_(shaders, Kernel::Box3x3) {
+    // What is needed first in most runs: a program is otherwise compiled in the frame that meets
+    // it.
+    const SvgfPlan plan = makePlan({});
+    temporal_.prepare(plan.temporal);
+    atrousOf(plan).prepare(plan.edges);
+    gradientAtrousOf(plan).prepare(plan.gradientEdges);
+}
+
+AtrousPass& SvgfFilter::atrousOf(const SvgfPlan& plan) {
+    return plan.kernel == Kernel::B3Spline5x5 ? atrousSpline_ : atrousBox_;
+}
+
+GradientAtrousPass& SvgfFilter::gradientAtrousOf(const SvgfPlan& plan) {
+    return plan.gradientKernel == Kernel::B3Spline5x5 ? gradientSpline_ : gradientBox_;
+}
 
 const GpuTexture& SvgfFilter::run(FrameContext& frame, const FilterInput& in,
                                   const FilterSettings& settings, FilterImages own) {
@@ -51,8 +66,7 @@ const GpuTexture& SvgfFilter::run(FrameContext& frame, const FilterInput& in, co
 void SvgfFilter::reconstructGradient(const Run& run) {
     const auto& [frame, in, plan, own] = run;
     gradient_.run(frame, gradientInputs(in), {own[kGradientSamples]}, plan.gradient);
-    GradientAtrousPass& atrous =
-        plan.gradientKernel == Kernel::B3Spline5x5 ? gradientSpline_ : gradientBox_;
+    GradientAtrousPass& atrous = gradientAtrousOf(plan);
     gpu::EdgeStopping edges = plan.gradientEdges;
     const GpuTexture* newest = &own[kGradientSamples];
     for (int k = 0; k < plan.gradientIterations; ++k) {
@@ -78,7 +92,7 @@ const GpuTexture& SvgfFilter::filter(const Run& run) {
         return accumulated;
     variance_.run(frame, {accumulated, own[kMoments], in.surfaces.guides, in.surfaces.slope},
                   {own[kFiltered0]}, plan.variance);
-    AtrousPass& atrous = plan.kernel == Kernel::B3Spline5x5 ? atrousSpline_ : atrousBox_;
+    AtrousPass& atrous = atrousOf(plan);
     gpu::EdgeStopping edges = plan.edges;
     const GpuTexture* newest = &own[kFiltered0];
     bool first = false; // which of the two that take turns is next

@@ -58,6 +58,8 @@ private:
     void reconstructGradient(const Run& run);
     void accumulate(const Run& run);
     const GpuTexture& filter(const Run& run);
+    AtrousPass& atrousOf(const SvgfPlan& plan);
+    GradientAtrousPass& gradientAtrousOf(const SvgfPlan& plan);
 
     GradientPass gradient_;
     GradientAtrousPass gradientSpline_, gradientBox_;

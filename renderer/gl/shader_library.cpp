@@ -40,6 +40,11 @@ Program make(const std::string& name, const std::vector<ExpandedShader>& stages)
 ShaderLibrary::ShaderLibrary(ShaderSource source, Defines common)
     : source_(std::move(source)), common_(std::move(common)) {}
 
+bool ShaderLibrary::fetchesByImage() const {
+    return std::ranges::any_of(common_,
+                               [](const auto& define) { return define.first == "FETCH_BY_IMAGE"; });
+}
+
 std::vector<ExpandedShader> ShaderLibrary::expand(const std::vector<std::string>& files,
                                                   const Defines& defines) const {
     Defines all = common_;

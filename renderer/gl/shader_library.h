@@ -45,6 +45,8 @@ public:
 
     const ShaderSource& source() const { return source_; }
     const Defines& common() const { return common_; }
+    /// Returns whether textures are images in its programs: see shaders/lib/fetch.glsl.
+    bool fetchesByImage() const;
 
 private:
     template <class Program>

@@ -20,12 +20,16 @@ public:
         GpuTexture& filtered; ///< as Inputs::signal; never the same texture
     };
 
-    AtrousPass(ShaderLibrary& shaders, Kernel kernel);
+    AtrousPass(ShaderLibrary& shaders, Kernel kernel) : shaders_(shaders), kernel_(kernel) {}
+    /// Compiles the program for these parameters, which run() does otherwise.
+    void prepare(const gpu::EdgeStopping& params);
+    /// A step that is no power of two is std::logic_error.
     void run(FrameContext& frame, const Inputs& in, const Outputs& out,
              const gpu::EdgeStopping& params);
 
 private:
-    ComputeProgram& program_;
+    ShaderLibrary& shaders_;
+    Kernel kernel_;
 };
 
 } // namespace afterglow

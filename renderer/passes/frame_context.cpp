@@ -25,8 +25,12 @@ Binding FrameContext::block() const {
     return {"Frame", *uniforms};
 }
 
-Defines definesOf(Kernel kernel) {
-    return {{"KERNEL_RADIUS", kernel == Kernel::B3Spline5x5 ? "2" : "1"}};
+Defines definesOf(Kernel kernel, float sigmaNormal) {
+    Defines defines{{"KERNEL_RADIUS", kernel == Kernel::B3Spline5x5 ? "2" : "1"}};
+    for (int squarings = 0; squarings <= 10; ++squarings)
+        if (sigmaNormal == float(1 << squarings))
+            defines.emplace_back("NORMAL_SQUARINGS", std::to_string(squarings));
+    return defines;
 }
 
 } // namespace afterglow

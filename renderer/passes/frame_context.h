@@ -78,7 +78,9 @@ enum class Kernel {
     Box3x3       ///< the faster one of Schied et al. 2018
 };
 
-/// What selects it in a shader; see shaders/lib/kernel.glsl.
-Defines definesOf(Kernel kernel);
+/// Returns what selects the kernel and the exponent of the normals in a shader: see
+/// shaders/lib/kernel.glsl and shaders/lib/edge_stopping.glsl. A power of two from 1 to 1024 is a
+/// constant, since a cosine is squared faster, and more exactly, than it is raised to any power.
+Defines definesOf(Kernel kernel, float sigmaNormal);
 
 } // namespace afterglow

@@ -49,17 +49,28 @@ GradientPass::Findings::Region GradientPass::inspect(FrameContext& frame, const 
     return findings_.copyTo(readback);
 }
 
-GradientAtrousPass::GradientAtrousPass(ShaderLibrary& shaders, Kernel kernel)
-    : program_(shaders.compute("denoise/gradient_atrous.comp", definesOf(kernel))) {}
+namespace {
+
+ComputeProgram& atrousProgram(ShaderLibrary& shaders, Kernel kernel,
+                              const gpu::EdgeStopping& params) {
+    return shaders.compute("denoise/gradient_atrous.comp", definesOf(kernel, params.sigmaNormal));
+}
+
+} // namespace
+
+void GradientAtrousPass::prepare(const gpu::EdgeStopping& params) {
+    atrousProgram(shaders_, kernel_, params);
+}
 
 void GradientAtrousPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,
                              const gpu::EdgeStopping& params) {
     const auto scope = frame.pass("gradient a-trous", {&out.filtered});
-    program_.dispatch(out.filtered.size(), params,
-                      {{"gradient", in.gradient},
-                       {"strataGuides", in.strataGuides},
-                       {"strataSlope", in.strataSlope}},
-                      {{"filtered", out.filtered}});
+    atrousProgram(shaders_, kernel_, params)
+        .dispatch(out.filtered.size(), params,
+                  {{"gradient", in.gradient},
+                   {"strataGuides", in.strataGuides},
+                   {"strataSlope", in.strataSlope}},
+                  {{"filtered", out.filtered}});
 }
 
 LambdaPass::LambdaPass(ShaderLibrary& shaders) : program_(shaders.compute("denoise/lambda.comp")) {}

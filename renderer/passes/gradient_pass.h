@@ -76,12 +76,15 @@ public:
         GpuTexture& filtered; ///< as Inputs::gradient; never the same texture
     };
 
-    GradientAtrousPass(ShaderLibrary& shaders, Kernel kernel);
+    GradientAtrousPass(ShaderLibrary& shaders, Kernel kernel)
+        : shaders_(shaders), kernel_(kernel) {}
+    void prepare(const gpu::EdgeStopping& params); ///< as AtrousPass::prepare()
     void run(FrameContext& frame, const Inputs& in, const Outputs& out,
              const gpu::EdgeStopping& params);
 
 private:
-    ComputeProgram& program_;
+    ShaderLibrary& shaders_;
+    Kernel kernel_;
 };
 
 /// Normalizes the filtered gradient. Schied et al. 2018, section 4.4.

@@ -44,11 +44,10 @@ void main() {
         return;
     }
 
-    vec2 centerSlope = fetch(strataSlope, s).xy;
-    float luminanceScale =
-        params.sigmaLuminance == 0.0 // 0 stands for no luminance stop
-            ? 0.0
-            : 1.0 / (params.sigmaLuminance * sqrt(max(smoothedVariance(s, last), 0.0)) + 1e-6);
+    EdgeStops stops = edgeStops(guide, fetch(strataSlope, s).xy, params.sigmaDepth);
+    addLuminanceStop(stops, center.z, smoothedVariance(s, last), params.sigmaLuminance);
+    if (params.sigmaLuminance == 0.0) // stands for no luminance stop
+        stops.luminanceScale = 0.0;
 
     vec3 sum = vec3(0.0);
     float varianceSum = 0.0, weightSum = 0.0;
@@ -58,17 +57,13 @@ void main() {
             ivec2 t = s + offset;
             if (any(lessThan(t, ivec2(0))) || any(greaterThan(t, last)))
                 continue;
-            vec4 otherGuide = fetch(strataGuides, t);
-            if (otherGuide.w == 0.0)
-                continue;
             vec4 other = fetch(gradient, t);
-
             vec2 inPixels = vec2(offset) * float(kStratumSize);
-            float exponent =
-                depthExponent(guide.w, otherGuide.w, centerSlope, inPixels, params.sigmaDepth) +
-                abs(center.z - other.z) * luminanceScale;
-            float w = kernelWeight(x, y) *
-                      normalWeight(guide.xyz, otherGuide.xyz, params.sigmaNormal) * exp(-exponent);
+            bool isCenter = x == 0 && y == 0;
+            float stop =
+                edgeWeight(stops, fetch(strataGuides, t), other.z, inPixels, params.sigmaNormal);
+            // `precise`: the same bits, whichever way textures are fetched.
+            precise float w = kernelWeight(x, y) * (isCenter ? 1.0 : stop);
             sum += w * other.xyz;
             varianceSum += w * w * other.w;
             weightSum += w;

@@ -40,17 +40,13 @@ void main() {
     vec2 sum = vec2(0.0);
     float weightSum = 0.0;
     vec2 centerSlope = radius < 0 ? vec2(0.0) : fetch(slope, p).xy;
+    EdgeStops stops = edgeStops(guide, centerSlope, params.sigmaDepth);
     for (int y = -radius; y <= radius; ++y) {
         for (int x = -radius; x <= radius; ++x) {
             ivec2 q = p + ivec2(x, y);
             if (any(lessThan(q, ivec2(0))) || any(greaterThan(q, last)))
                 continue;
-            vec4 otherGuide = fetch(guides, q);
-            if (otherGuide.w == 0.0)
-                continue;
-            float w = normalWeight(guide.xyz, otherGuide.xyz, params.sigmaNormal) *
-                      exp(-depthExponent(guide.w, otherGuide.w, centerSlope, vec2(x, y),
-                                         params.sigmaDepth));
+            float w = edgeWeight(stops, fetch(guides, q), 0.0, vec2(x, y), params.sigmaNormal);
             sum += w * fetch(moments, q).xy;
             weightSum += w;
         }

@@ -36,8 +36,7 @@ const Outputs& plainOutputs() {
 
 /// Frames of a filter with a shader that somebody has spoilt.
 Outputs renderSpoilt(std::string_view file, std::string_view from, std::string_view to,
-                     const Settings& settings) {
-    ShaderLibrary shaders = freshShaders();
+                     const Settings& settings, ShaderLibrary shaders = freshShaders()) {
     const RewrittenShaders rewritten([&](std::string_view name, std::string text) {
         return name == file ? replaced(std::move(text), from, to) : text;
     });
@@ -84,6 +83,27 @@ TEST_CASE("no frame depends on what new textures and buffers hold, or on their f
     CHECK(poisoned.buffersPoisoned() > 10);
 }
 
+TEST_CASE(
+    "two pixels a thread do not depend on garbage in new storage or on the workgroups' order") {
+    const GlCheck noGlMessages;
+    for (const Kernel kernel : {Kernel::B3Spline5x5, Kernel::Box3x3}) {
+        CAPTURE(int(kernel));
+        Settings settings = settingsOf(Filter::Asvgf);
+        settings.denoiser.kernel = int(kernel);
+        ShaderLibrary shaders = freshImageShaders();
+        const Outputs plain = renderFilter(shaders, settings);
+        {
+            const PoisonedStorage poisoned(kClearedForUse);
+            CHECK(differences(plain, renderFilter(shaders, settings)) == "");
+        }
+        ShaderLibrary reversed = freshImageShaders();
+        const RewrittenShaders rewritten(
+            [](std::string_view, std::string text) { return withReversedGroups(std::move(text)); });
+        CHECK(differences(plain, renderFilter(reversed, settings)) == "");
+        CHECK(rewritten.changed() > 10);
+    }
+}
+
 TEST_CASE("a clear that is missing shows where storage holds garbage") {
     const GlCheck noGlMessages;
     const Outputs& plain = plainOutputs();
@@ -102,13 +122,20 @@ TEST_CASE("a clear that is missing shows where storage holds garbage") {
 
 TEST_CASE("pixels that are never written show where storage holds garbage") {
     const GlCheck noGlMessages;
-    const auto render = [&] {
-        return renderSpoilt("denoise/atrous.comp", "any(greaterThan(p, last))",
-                            "any(greaterThan(p, last - ivec2(0, 1)))", settingsOf(Filter::Svgf));
+    const auto shows = [&](std::string_view from, std::string_view to, auto makeShaders) {
+        const auto render = [&] {
+            return renderSpoilt("denoise/atrous.comp", from, to, settingsOf(Filter::Svgf),
+                                makeShaders());
+        };
+        const Outputs zeros = render();
+        const PoisonedStorage poisoned(kClearedForUse);
+        return differences(zeros, render()) != "";
     };
-    const Outputs zeros = render();
-    const PoisonedStorage poisoned(kClearedForUse);
-    CHECK(differences(zeros, render()) != "");
+    CHECK(shows("any(greaterThan(p, last))", "any(greaterThan(p, last - ivec2(0, 1)))",
+                freshShaders));
+    // Of two pixels a thread, the lower one in the last row.
+    CHECK(shows("below.y <= last.y", "below.y < last.y", freshImageShaders));
+    CHECK_FALSE(shows("below.y <= last.y", "last.y >= below.y", freshImageShaders));
 }
 
 TEST_CASE("what a shader wrote is used only after the barrier that it needs") {

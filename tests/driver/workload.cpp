@@ -275,6 +275,12 @@ ShaderLibrary freshShaders() {
     return ShaderLibrary(ShaderSource::fromDirectory(sourceDir() / "shaders"));
 }
 
+ShaderLibrary freshImageShaders() {
+    testContext();
+    return ShaderLibrary(ShaderSource::fromDirectory(sourceDir() / "shaders"),
+                         Defines{{"FETCH_BY_IMAGE", "1"}});
+}
+
 ShaderLibrary& samplerShaders() {
     // Never destroyed: the context is gone by then.
     static ShaderLibrary& shaders = *new ShaderLibrary(freshShaders());

@@ -28,5 +28,8 @@ std::string differences(const Outputs& a, const Outputs& b);
 ShaderLibrary& samplerShaders();
 /// The same in a library of its own, whose programs are compiled anew.
 ShaderLibrary freshShaders();
+/// As that, with images in place of samplers, as llvmpipe is given them. The a-trous filter then
+/// has another form.
+ShaderLibrary freshImageShaders();
 
 } // namespace afterglow::test

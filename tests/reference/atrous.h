@@ -33,12 +33,12 @@ Image<glm::dvec4> atrousIteration(const Image<glm::vec4>& image, const Image<glm
                     if (!image.contains(q) || isBackground(guides(q)))
                         continue;
                     const glm::dvec2 offset = double(pixelsPerCell) * glm::dvec2(p - q);
-                    const double w =
-                        share(kernel, k) *
+                    const double stops =
                         depthWeight(guides(p), guides(q), slope(p), offset, params.sigmaDepth) *
                         normalWeight(guides(p), guides(q), params.sigmaNormal) *
                         luminanceWeight(luminanceOf(image(p)), luminanceOf(image(q)), variance,
                                         params.sigmaLuminance);
+                    const double w = share(kernel, k) * (q == p ? 1.0 : stops);
                     sum += w * glm::dvec3(image(q));
                     squares += w * w * double(image(q).a);
                     total += w;

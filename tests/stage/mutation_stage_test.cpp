@@ -18,11 +18,12 @@ using namespace afterglow::test;
 
 namespace {
 
-/// Usual ones, and some so wide that only the depth 0 of background keeps it out.
+/// Usual ones, and some so wide that only the depth 0 of background keeps it out. One exponent of
+/// the normals is no power of two.
 const gpu::EdgeStopping kEdges[] = {
-    {4.0f, 128.0f, 1.0f, 1}, {4.0f, 128.0f, 1.0f, 4}, {100.0f, 1.0f, 20.0f, 4}};
+    {4.0f, 128.0f, 1.0f, 1}, {4.0f, 128.0f, 1.0f, 4}, {100.0f, 1.5f, 20.0f, 4}};
 
-Verdict measureAtrous(ShaderLibrary& shaders) {
+Verdict measureAtrousForm(ShaderLibrary& shaders) {
     Verdict verdict;
     const RandomFrame frame({61, 37}, 21);
     for (const Kernel kernel : {Kernel::B3Spline5x5, Kernel::Box3x3})
@@ -31,6 +32,18 @@ Verdict measureAtrous(ShaderLibrary& shaders) {
                         reference::atrous(frame.signal, frame.guides, frame.slope, kernel, params));
         }
     return verdict;
+}
+
+/// One pixel a thread.
+Verdict measureAtrousBySampler(ShaderLibrary& shaders) {
+    ShaderLibrary bySampler(shaders.source());
+    return measureAtrousForm(bySampler);
+}
+
+/// Two pixels a thread.
+Verdict measureAtrousByImage(ShaderLibrary& shaders) {
+    ShaderLibrary byImage(shaders.source(), Defines{{"FETCH_BY_IMAGE", "1"}});
+    return measureAtrousForm(byImage);
 }
 
 Verdict measureTemporal(ShaderLibrary& shaders) {
@@ -123,33 +136,61 @@ Verdict measureLambda(ShaderLibrary& shaders) {
 } // namespace
 
 TEST_CASE("errors planted in the a-trous iteration do not pass") {
-    const std::string file = "denoise/atrous.comp";
+    const std::string file = "denoise/atrous.comp", stops = "lib/edge_stopping.glsl";
     checkMutants(
-        measureAtrous,
+        measureAtrousBySampler,
         {{"swizzle of the tap's luminance", file, "luminance(other.rgb)", "luminance(other.rbg)"},
          {"variance weight not squared", file, "w * w * other.a", "w * other.a"},
-         {"variance normalized once", file, "varianceSum / (weightSum * weightSum)",
-          "varianceSum / weightSum"},
+         {"variance normalized once", file,
+          "pixel.varianceSum / (pixel.weightSum * pixel.weightSum)",
+          "pixel.varianceSum / pixel.weightSum"},
          {"variance not smoothed", file, "fetch(signal, clamp(p + ivec2(x, y), ivec2(0), last)).a",
           "fetch(signal, p).a"},
          {"variance smoothed by another kernel", file, "1.0 / 2.0, 1.0 / 4.0",
           "1.0 / 3.0, 1.0 / 3.0"},
-         {"standard deviation not rooted", file, "sqrt(max(smoothedVariance(p, last), 0.0))",
-          "max(smoothedVariance(p, last), 0.0)"},
-         {"step forgotten in the depth weight", file, "vec2(offset), params.sigmaDepth",
-          "vec2(x, y), params.sigmaDepth"},
-         {"background as a tap", file, "otherGuide.w == 0.0", "false"},
-         {"background blackened", file, "imageStore(filtered, p, center)",
+         {"standard deviation not rooted", stops, "sqrt(max(variance, 0.0))", "max(variance, 0.0)"},
+         {"step forgotten in the depth weight", file, "float(params.step) * vec2(towards)",
+          "vec2(towards)"},
+         {"a tap and its mirror image", file, "? -k : k", "? ivec2(-k.x, k.y) : k"},
+         {"background as a tap", stops, "otherGuide.w == 0.0 ? 0.0 : weight", "weight"},
+         {"background blackened", file, "imageStore(filtered, p, fetch(signal, p))",
           "imageStore(filtered, p, vec4(0.0))"},
-         {"depth epsilon in meters", "lib/edge_stopping.glsl", "1e-3 * depth", "1e-3"},
-         {"slope taken by its length", "lib/edge_stopping.glsl", "abs(dot(slope, offset))",
-          "length(slope) * length(offset)"},
-         {"exponent of the normals forgotten", "lib/edge_stopping.glsl", "pow(cosine, sigma)",
-          "cosine"},
+         {"a column too few", file, "x <= KERNEL_RADIUS", "x < KERNEL_RADIUS"},
+         {"depth epsilon in meters", stops, "1e-3 * guide.w", "1e-3"},
+         {"powers of 2 for powers of e", stops, "kLn2 = 0.69314718056", "kLn2 = 1.0"},
+         {"slope taken by its length", stops, "abs(dot(stops.depthReach, offset))",
+          "length(stops.depthReach) * length(offset)"},
+         {"exponent of the normals forgotten", stops, "pow(cosine, sigma)", "cosine"},
+         {"a squaring too few", stops, "int i = 0; i < NORMAL_SQUARINGS",
+          "int i = 1; i < NORMAL_SQUARINGS"},
          {"spline with a heavy rim", "lib/kernel.glsl", "1.0 / 4.0, 1.0 / 16.0",
           "1.0 / 4.0, 1.0 / 8.0"},
          {"luminance of another color order", "lib/color.glsl", "0.2126, 0.7152, 0.0722",
           "0.0722, 0.7152, 0.2126"}});
+}
+
+TEST_CASE("errors planted in an a-trous iteration with two pixels a thread do not pass") {
+    const std::string file = "denoise/atrous.comp";
+    checkMutants(
+        measureAtrousByImage,
+        {{"the lower pixel takes the upper one's taps", file, "k - ivec2(0, 1), otherGuide",
+          "k, otherGuide"},
+         {"the upper pixel without its lowest taps", file, "if (k.y <= KERNEL_RADIUS)",
+          "if (k.y < KERNEL_RADIUS)"},
+         {"the lower pixel without its highest taps", file, "if (k.y > -KERNEL_RADIUS)",
+          "if (k.y > 1 - KERNEL_RADIUS)"},
+         {"5x5 without the last row", file, "ROW(2) ROW(3)", "ROW(2)"},
+         {"5x5 without a tap of each row", file, "TAP(0, y) TAP(1, y) TAP(2, y)",
+          "TAP(0, y) TAP(2, y)"},
+         {"3x3 without the last row", file, "ROWS ROW(-1) ROW(0) ROW(1) ROW(2)",
+          "ROWS ROW(-1) ROW(0) ROW(1)"},
+         {"rows of the second half", file, "cell.y & -params.step", "cell.y & params.step"},
+         {"pairs a row apart", file, "p + ivec2(0, params.step);", "p + ivec2(0, 1);"},
+         {"a row too few at the bottom", file, "below.y <= last.y", "below.y < last.y"},
+         {"background blackened", file, "pixel.stops.depth == 0.0 ? pixel.center",
+          "pixel.stops.depth == 0.0 ? vec4(0.0)"},
+         {"background as a tap", "lib/edge_stopping.glsl", "otherGuide.w == 0.0 ? 0.0 : weight",
+          "weight"}});
 }
 
 TEST_CASE("errors planted in the temporal accumulation do not pass") {
@@ -192,25 +233,27 @@ TEST_CASE("errors planted in the temporal accumulation do not pass") {
           "luminance(current.rgb)"},
          {"luminance of a history that nobody has", file,
           "hasHistory ? luminance(history.color) : 0.0", "luminance(history.color)"},
+         {"background accumulated", file, "guide.w != 0.0", "true"},
          {"second moment of the mean", file, "current.a * current.a", "current.a"}});
 }
 
 TEST_CASE("errors planted in the variance stage do not pass") {
     const std::string file = "denoise/variance.comp";
-    checkMutants(measureVariance,
-                 {{"factor 4/N dropped", file, "params.minHistory / max(history, 1.0)", "1.0"},
-                  {"factor 4/N without a limit", file, "max(history, 1.0)", "(history + 1.0)"},
-                  {"5x5 for 7x7", file, "kRadius = 3", "kRadius = 2"},
-                  {"one frame too many in space", file, "history < params.minHistory",
-                   "history <= params.minHistory"},
-                  {"negative variance turned over", file, "max(0.0, mean.y - mean.x * mean.x)",
-                   "abs(mean.y - mean.x * mean.x)"},
-                  {"mean not squared", file, "mean.y - mean.x * mean.x", "mean.y - mean.x"},
-                  {"normals forgotten", file,
-                   "normalWeight(guide.xyz, otherGuide.xyz, params.sigmaNormal)", "1.0"},
-                  {"background as a tap", file, "otherGuide.w == 0.0", "false"},
-                  {"swizzle of the signal", file, "fetch(accumulated, p).rgb",
-                   "fetch(accumulated, p).rbg"}});
+    checkMutants(
+        measureVariance,
+        {{"factor 4/N dropped", file, "params.minHistory / max(history, 1.0)", "1.0"},
+         {"factor 4/N without a limit", file, "max(history, 1.0)", "(history + 1.0)"},
+         {"5x5 for 7x7", file, "kRadius = 3", "kRadius = 2"},
+         {"one frame too many in space", file, "history < params.minHistory",
+          "history <= params.minHistory"},
+         {"negative variance turned over", file, "max(0.0, mean.y - mean.x * mean.x)",
+          "abs(mean.y - mean.x * mean.x)"},
+         {"mean not squared", file, "mean.y - mean.x * mean.x", "mean.y - mean.x"},
+         {"normals forgotten", file, "vec2(x, y), params.sigmaNormal)", "vec2(x, y), 0.0)"},
+         {"background as a tap", "lib/edge_stopping.glsl", "otherGuide.w == 0.0 ? 0.0 : weight",
+          "weight"},
+         {"swizzle of the signal", file, "fetch(accumulated, p).rgb",
+          "fetch(accumulated, p).rbg"}});
 }
 
 TEST_CASE("errors planted in the gradient samples do not pass") {
@@ -248,12 +291,13 @@ TEST_CASE("errors planted in the gradient reconstruction do not pass") {
     checkMutants(
         measureGradientAtrous,
         {{"distance in strata", file, "vec2(offset) * float(kStratumSize)", "vec2(offset)"},
-         {"edges of delta, not of luminance", file, "abs(center.z - other.z)",
-          "abs(center.x - other.x)"},
+         {"edges of delta, not of luminance", file, "fetch(strataGuides, t), other.z",
+          "fetch(strataGuides, t), other.x"},
          {"variance weight not squared", file, "w * w * other.w", "w * other.w"},
          {"variance smoothed from another channel", file, "ivec2(0), last)).w",
           "ivec2(0), last)).z"},
-         {"background as a tap", file, "otherGuide.w == 0.0", "false"},
+         {"background as a tap", "lib/edge_stopping.glsl", "otherGuide.w == 0.0 ? 0.0 : weight",
+          "weight"},
          {"background blackened", file, "imageStore(filtered, s, center)",
           "imageStore(filtered, s, vec4(0.0))"},
          {"box with a light middle", "lib/kernel.glsl", "1.0 / 3.0, 1.0 / 3.0",
