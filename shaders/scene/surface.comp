@@ -33,17 +33,10 @@ void main() {
     if (any(greaterThanEqual(p, sizeOf(visibility))))
         return;
     uvec4 sampled = fetch(visibility, p);
-    if (sampled.x == 0u) {
-        imageStore(surface, p, uvec4(0u));
-        imageStore(guides, p, vec4(0.0));
-        imageStore(slope, p, vec4(0.0));
-        imageStore(motion, p, vec4(0.0));
-        imageStore(albedo, p, vec4(0.0));
-        imageStore(emission, p, vec4(0.0));
-        return;
-    }
-
-    uint instance = sampled.x - 1u;
+    // Background is computed as if it showed the first triangle, and stored as 0: one set of
+    // stores.
+    bool isSurface = sampled.x != 0u;
+    uint instance = max(sampled.x, 1u) - 1u;
     vec2 b = uintBitsToFloat(sampled.zw);
     uvec3 vertex = triangleVertices(instance, sampled.y);
     Affine now = instanceTransform(instance, false);
@@ -75,11 +68,13 @@ void main() {
     vec3 scale = links.z == kNoLight ? vec3(1.0)
                                      : uintBitsToFloat(fetchBuffer(lightScales, int(links.z))).rgb;
 
-    imageStore(surface, p, uvec4(floatBitsToUint(position), octEncode(geometric)));
-    imageStore(guides, p, vec4(normal, depth));
-    imageStore(slope, p,
-               vec4(depthSlope(viewPosition, mat3(frame.viewFromWorld) * geometric), 0.0, 0.0));
-    imageStore(motion, p, vec4(moved, previousDepth, wasInFront ? 1.0 : 0.0));
-    imageStore(albedo, p, vec4(base.rgb, 1.0));
-    imageStore(emission, p, vec4(emitted.rgb * scale, 1.0));
+    vec2 slopes = depthSlope(viewPosition, mat3(frame.viewFromWorld) * geometric);
+    uvec4 place = uvec4(floatBitsToUint(position), octEncode(geometric));
+    imageStore(surface, p, isSurface ? place : uvec4(0u));
+    imageStore(guides, p, isSurface ? vec4(normal, depth) : vec4(0.0));
+    imageStore(slope, p, isSurface ? vec4(slopes, 0.0, 0.0) : vec4(0.0));
+    imageStore(motion, p,
+               isSurface ? vec4(moved, previousDepth, wasInFront ? 1.0 : 0.0) : vec4(0.0));
+    imageStore(albedo, p, isSurface ? vec4(base.rgb, 1.0) : vec4(0.0));
+    imageStore(emission, p, isSurface ? vec4(emitted.rgb * scale, 1.0) : vec4(0.0));
 }
