@@ -38,7 +38,7 @@ std::vector<Variant> allVariants() {
                        {{"KERNEL_RADIUS", "2"}, {"NORMAL_SQUARINGS", "7"}}};
         if (name == "denoise/temporal.comp" || name == "denoise/gradient.comp")
             defines = {{}, {{"INSPECT", "1"}}};
-if (name == "denoise/temporal.comp")
+        if (name == "denoise/temporal.comp")
             defines.push_back({{"FOR_PLAN", "1"},
                                {"LAMBDA_SOURCE", "0"},
                                {"LAMBDA_FETCH", "0"},
