@@ -34,6 +34,7 @@ FOLDERS = {
     "app/base": "output, JSON, progress",
     "app/scenario": "what happens when",
     "app/measure": "ground truth, metrics, response",
+    "app/bench": "times, rays, trees, memory",
     "app/report": "pages and sheets",
     "app/experiment": "runs",
     "app/workbench": "the window's state and actions",

@@ -18,12 +18,13 @@ set(pipeline_may "base;image;scene;bvh;gl;resources;passes;filters;pipeline")
 set(app_base_may "base")
 set(app_scenario_may "base;scenario")
 set(app_measure_may "base;scenario;measure")
+set(app_bench_may "base;bench")
 set(app_report_may "base;scenario;measure;report")
 set(app_experiment_may "base;scenario;measure;report;experiment")
 set(app_workbench_may "base;scenario;measure;report;experiment;workbench")
 set(app_ui_may "base;scenario;measure;report;experiment;workbench;ui")
 set(app_window_may "base;scenario;measure;report;experiment;workbench;ui;window")
-set(app_commands_may "base;scenario;measure;report;experiment;workbench;ui;window;commands")
+set(app_commands_may "base;scenario;measure;report;experiment;workbench;ui;window;bench;commands")
 
 # Foreign libraries and the files that may see them.
 set(foreign
@@ -33,6 +34,7 @@ set(foreign
     "tinyexr.h|renderer/image/"
     "GL/osmesa.h|renderer/gl/context_osmesa.cpp"
     "EGL/|renderer/gl/context_egl.cpp"
+    "embree3/|app/bench/embree/"
     "GLFW/|app/window/|app/ui/"
     "imgui|app/window/|app/ui/"
     "CLI/|app/commands/")

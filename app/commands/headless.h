@@ -4,6 +4,7 @@
 #include "renderer/gl/context.h"
 #include "renderer/pipeline/renderer.h"
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,6 +47,7 @@ struct Headless {
 
     std::unique_ptr<GlContext> context;
     GlInfo gl;
+    std::chrono::steady_clock::time_point contextMade = std::chrono::steady_clock::now();
     ShaderLibrary shaders;
     Renderer renderer;
 };

@@ -141,10 +141,12 @@ void Options::addText(const std::string& names, const std::string& word, const s
     const bool isPlace = option->get_positional();
     option->type_name(word);
     option->required(count == Count::Required || (isPlace && count == Count::Any));
-    if (count == Count::Any)
+    if (count == Count::Any || count == Count::Optional)
         option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    if (count == Count::Any && isPlace)
-        option->expected(-1); // at least one
+    if ((count == Count::Any && isPlace) || count == Count::Optional)
+        option->expected(-1); // at least one where there is any
+    if (count == Count::Two)
+        option->expected(2);
     entries_.push_back({option, std::move(take)});
 }
 

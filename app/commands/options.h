@@ -96,6 +96,18 @@ public:
                     values.push_back(read(text));
                 });
     }
+    /// Adds a place that may have any number of values; without one they stay as they are.
+    template <class T>
+    void addPlaces(const std::string& name, std::vector<T>& values, Kind<T> kind,
+                   const std::string& help) {
+        addText(name, kind.word, help, Count::Optional, listReader(values, kind));
+    }
+    /// Adds an option of two values: "--compare BEFORE AFTER".
+    template <class T>
+    void addPair(const std::string& name, std::vector<T>& values, Kind<T> kind,
+                 const std::string& help) {
+        addText(name, kind.word, help, Count::Two, listReader(values, kind));
+    }
     void addFlag(const std::string& name, bool& value, const std::string& help);
 
     void exclude(const std::string& name, std::initializer_list<const char*> others);
@@ -109,13 +121,23 @@ public:
     void read() const;
 
 private:
-    enum class Count { Once, Required, Any };
+    enum class Count { Once, Required, Any, Optional, Two };
     using Take = std::function<void(const std::string&)>;
 
     template <class V, class T>
     static Take reader(V& value, Kind<T>& kind) {
         return
             [&value, read = std::move(kind.read)](const std::string& text) { value = read(text); };
+    }
+    /// Its values take the place of those that are there.
+    template <class T>
+    static Take listReader(std::vector<T>& values, Kind<T>& kind) {
+        return [&values, read = std::move(kind.read),
+                isFirst = true](const std::string& text) mutable {
+            if (std::exchange(isFirst, false))
+                values.clear();
+            values.push_back(read(text));
+        };
     }
     void addText(const std::string& names, const std::string& word, const std::string& help,
                  Count count, Take take);

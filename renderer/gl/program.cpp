@@ -18,6 +18,8 @@ bool strictBindings = true;
 bool strictBindings = false;
 #endif
 
+DispatchListener* dispatchListener = nullptr;
+
 bool isBlock(GLenum type) {
     return type == GL_UNIFORM_BUFFER || type == GL_SHADER_STORAGE_BUFFER;
 }
@@ -135,6 +137,10 @@ GlObject<ProgramKind> link(std::string_view name,
 
 void setStrictBindings(bool strict) {
     strictBindings = strict;
+}
+
+void setDispatchListener(DispatchListener* listener) {
+    dispatchListener = listener;
 }
 
 LinkedProgram::LinkedProgram(std::string_view name, std::initializer_list<Stage> stages)
@@ -299,6 +305,8 @@ void ComputeProgram::dispatchBytes(glm::ivec3 size, std::span<const std::byte> p
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (dispatchListener)
+        dispatchListener->dispatched(reads, writes);
 }
 
 RasterProgram::RasterProgram(std::string_view name, const ExpandedShader& vertexSource,

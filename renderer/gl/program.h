@@ -34,6 +34,15 @@ struct Binding {
     const GpuBuffer* block = nullptr; ///< a uniform block; a shader storage block where written
 };
 
+/// Hears of each dispatch of a compute program, right after it.
+class DispatchListener {
+public:
+    virtual ~DispatchListener() = default;
+    virtual void dispatched(std::span<const Binding> reads, std::span<const Binding> writes) = 0;
+};
+/// From the next dispatch on; null: nobody. Must outlive its use.
+void setDispatchListener(DispatchListener* listener);
+
 /// Sets whether names must match: one that a program does not use, or that it uses and was not
 /// given, is then std::logic_error. On from the start in builds that take shaders from the source
 /// folder, and in tests; off elsewhere: a driver may drop a texture that it proves unused, or keep

@@ -349,6 +349,15 @@ Renderer::FilterCall Renderer::filterCall(std::size_t state, std::size_t signal)
             FilterImages(impl_->targets.filters[state].own.at(signal))};
 }
 
+Renderer::LightingCall Renderer::lightingCall(std::size_t signal) {
+    static_cast<void>(filteredSignal()); // there is a frame
+    RenderTargets& t = impl_->targets;
+    return {impl_->context(),
+            *impl_->sceneGpu,
+            {t.surfaces, t.seeds.current()},
+            {t.signals.at(signal).raw.current(), t.rays, t.counters}};
+}
+
 void Renderer::setListener(PassListener* listener) {
     impl_->listener = listener;
 }

@@ -4,6 +4,7 @@
 #include "renderer/filters/svgf_plan.h"
 #include "renderer/gl/gpu_timer.h"
 #include "renderer/passes/frame_context.h"
+#include "renderer/passes/lighting_pass.h"
 #include "renderer/pipeline/light_state.h"
 #include "renderer/pipeline/settings.h"
 #include "renderer/resources/frame_data.h"
@@ -152,6 +153,16 @@ public:
         FilterImages own;
     };
     FilterCall filterCall(std::size_t state, std::size_t signal);
+    /// Returns the inputs and images of the lighting of a signal in the last frame, for rays that
+    /// are listed and traced again: that changes the raw signal. std::logic_error if no frame has
+    /// been rendered.
+    struct LightingCall {
+        FrameContext context;
+        const SceneGpu& scene;
+        LightingPass::Inputs in;
+        LightingPass::Outputs out;
+    };
+    LightingCall lightingCall(std::size_t signal);
     FrameStats readStats() const; ///< waits for the GPU
     GpuTimer& timer();
 

@@ -121,7 +121,11 @@ TEST_CASE("an output folder that cannot be made is exit code 1 and one line that
                                        "--spp", "1"},
               std::vector<std::string>{"bench", "tiny", "--size", "8x8", "--frames", "4"}}) {
             std::vector<std::string> all = words;
-            all.insert(all.end(), {"--context", "osmesa", "--out", out});
+            all.insert(all.end(), {"--context", "osmesa"});
+            if (words.front() == "bench")
+                all.insert(all.end(), {"--json", out + "/bench.json"});
+            else
+                all.insert(all.end(), {"--out", out});
             CAPTURE(words.front());
             CAPTURE(out);
             const Run run = afterglow(all);

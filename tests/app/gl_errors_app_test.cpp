@@ -60,7 +60,8 @@ TEST_CASE("any error of OpenGL ends a command with exit code 1, reported or not"
         {"render", "tiny", "--size", "16x9", "--frames", "1", "--out", out.c_str()},
         {"render", "light-off", "--export", "--size", "16x9", "--frames", "1", "--out",
          noise.c_str()},
-        {"bench", "tiny", "--size", "16x9", "--frames", "4", "--filter", "none"},
+        {"bench", "tiny", "--size", "16x9", "--frames", "4", "--filter", "none", "--what", "passes",
+         "--repeat", "1"},
         {"experiment", "static", "--size", "16x9", "--frames", "1", "--spp", "8", "--no-cache",
          "--fresh", "--filter", "fixed", "--out", score.c_str()}};
     for (const auto& command : commands) {

@@ -233,18 +233,4 @@ TEST_CASE("EGL renders what OSMesa renders, where both are software") {
         CHECK(egl.size() == osmesa.size()); // a GPU rounds in its own ways
 }
 
-TEST_CASE("bench measures every filter at every size") {
-    const TemporaryFolder folder;
-    const Run run = afterglow({"bench", "tiny", "--size", "8x8,16x8", "--filter", "none,asvgf",
-                               "--frames", "4", "--context", "osmesa", "--out", folder / "out"});
-    checkDone(run);
-    CHECK(filesIn(folder / "out") == std::vector<std::string>{"bench.json"});
-    const auto runs = nlohmann::json::parse(bytesOf(folder / "out/bench.json")).at("runs");
-    REQUIRE(runs.size() == 4);
-    for (const auto& one : runs) {
-        CHECK(one.at("frame_ms_median") > 0.0);
-        CHECK(one.at("rays_per_second") > 0.0);
-    }
-}
-
 } // namespace afterglow::test

@@ -49,6 +49,10 @@ std::vector<Variant> allVariants() {
             defines = {{{"SHADOWS", "1"}, {"FIRST", "1"}},
                        {{"AMBIENT_OCCLUSION", "1"}},
                        {{"AMBIENT_OCCLUSION", "1"}, {"FIRST", "1"}}};
+        if (name == "bench/rays.comp")
+            defines = {{{"PRIMARY", "1"}}, {{"BOUNCE", "1"}}, {{"BOUNCE_SHADOW", "1"}}};
+        if (name == "bench/trace.comp")
+            defines = {{}, {{"ANY_HIT", "1"}}};
         if (name == "post/debug_view.comp")
             defines = {{{"SOURCE", "Float4Texture"}},
                        {{"SOURCE", "Uint4Texture"}, {"SOURCE_IS_INTEGER", "1"}}};
