@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -150,6 +151,12 @@ std::size_t JsonReader::choice(std::span<const std::string_view> names) const {
     if (found == names.end())
         fail(quotedList(names));
     return std::size_t(found - names.begin());
+}
+
+double shortest(float value) {
+    std::array<char, 40> text{};
+    std::to_chars(text.data(), text.data() + text.size(), value);
+    return std::strtod(text.data(), nullptr);
 }
 
 JsonDocument::JsonDocument(std::string_view text, std::string_view source) : source_(source) {

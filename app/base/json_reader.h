@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,20 @@ public:
     /// The members of this object, in the order of the alphabet.
     std::vector<std::pair<std::string, JsonReader>> members() const;
 
+    /// A list of as many numbers as the vector has; `wanted` describes it.
+    template <class Vector>
+    Vector vector(std::string_view wanted, double least, double most) const {
+        constexpr std::size_t kCount = Vector::length();
+        const std::vector<JsonReader> items = list(wanted, kCount, kCount);
+        Vector result;
+        for (std::size_t i = 0; i < kCount; ++i)
+            if constexpr (std::is_integral_v<typename Vector::value_type>)
+                result[int(i)] = int(items[i].wholeNumber(std::int64_t(least), std::int64_t(most)));
+            else
+                result[int(i)] = float(items[i].number(least, most));
+        return result;
+    }
+
     bool isText() const;
     /// What can be said of a setting: a number, or the name of one of its values, as text for
     /// setField().
@@ -61,6 +77,16 @@ private:
     std::string_view source_;
     std::string path_; ///< "timeline[0].frame"; empty for the whole document
 };
+
+/// Sets a value to what `read` makes of a member, where that is there.
+template <class Value, class Read>
+void readIfThere(const JsonReader& json, std::string_view key, Value& value, Read read) {
+    if (const auto member = json.find(key))
+        value = Value(std::invoke(read, *member));
+}
+
+/// Returns the double that is written as shortly as the float: 0.1, not 0.10000000149.
+double shortest(float value);
 
 /// A parsed file. Text that is not JSON, or has a key twice, is an InputError with the line.
 class JsonDocument {

@@ -61,6 +61,18 @@ std::string frameStem(std::string_view name, int frame) {
     return fmt::format("{}_{:04}", name, frame);
 }
 
+int writeAov(const OutputFolder& folder, std::string_view format, const Renderer& renderer,
+             const AovInfo& aov, std::optional<int> frame, std::size_t state) {
+    const auto signals = renderer.signals();
+    const std::size_t count = aov.perSignal ? signals.size() : 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string stem = fileStem(aov, signals[i], signals.size());
+        folder.writeFloat(frame ? frameStem(stem, *frame) : stem, format,
+                          readAov(renderer, aov, state, i), aov.channels);
+    }
+    return int(count);
+}
+
 const GpuTexture& FrameClock::render(Renderer& renderer, const FrameInput& input,
                                      const Settings& settings) {
     using Clock = std::chrono::steady_clock;
@@ -91,10 +103,6 @@ double FrameClock::raysPerSecond() const {
         spent += milliseconds_[i];
     }
     return spent > 0.0 ? counted / spent * 1000.0 : 0.0;
-}
-
-double FrameClock::meanRays() const {
-    return stats_.empty() ? 0.0 : double(rays()) / double(stats_.size());
 }
 
 std::uint64_t FrameClock::rays() const {

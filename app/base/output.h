@@ -3,11 +3,11 @@
 
 #include "renderer/gl/context.h"
 #include "renderer/image/image.h"
+#include "renderer/pipeline/aov.h"
 #include "renderer/pipeline/renderer.h"
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +45,12 @@ private:
 /// "color_0007": the stem of a file that belongs to a frame.
 std::string frameStem(std::string_view name, int frame);
 
+/// Writes an image of the last frame, or one of each signal where it has several: "raw", or
+/// "raw_shadows" and "raw_ao", with the frame's number behind it where one is given. Returns how
+/// many files that were.
+int writeAov(const OutputFolder& folder, std::string_view format, const Renderer& renderer,
+             const AovInfo& aov, std::optional<int> frame = {}, std::size_t state = 0);
+
 /// How long frames took, and what they traced. Frames are finished before the clock is read;
 /// reading back and writing are left out. Times of passes are those of the very frame.
 class FrameClock {
@@ -57,7 +63,6 @@ public:
     int warmup() const;
     double medianMilliseconds() const;
     double raysPerSecond() const; ///< while frames were being rendered, without the first ones
-    double meanRays() const;      ///< a frame, over all frames
     std::uint64_t rays() const;   ///< of all frames
     std::uint64_t invalidValues() const;
 

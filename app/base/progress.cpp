@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "app/base/progress.h"
 
-#include "app/base/interrupt.h"
-
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 namespace afterglow {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void remember(int) {
+    interrupted = 1;
+}
+
+} // namespace
+
+void catchInterrupts() {
+    struct sigaction action = {};
+    action.sa_handler = remember;
+    action.sa_flags = int(SA_RESETHAND); // the next one is not for us
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
 
 Progress::Progress(double total)
     : total_(std::max(total, 1e-9)), visible_(isatty(STDERR_FILENO) != 0) {}
@@ -20,7 +37,8 @@ Progress::~Progress() {
 }
 
 void Progress::advance(double work, std::string_view doing) {
-    throwIfInterrupted();
+    if (interrupted != 0)
+        throw Interrupted();
     done_ = std::min(done_ + work, total_);
     const auto now = Clock::now();
     if (!visible_ || (now - drawn_ < std::chrono::milliseconds(100) && done_ < total_))

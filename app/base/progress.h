@@ -2,10 +2,24 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <string>
 #include <string_view>
 
 namespace afterglow {
+
+/// Someone asked the program to end (Ctrl-C, or a plain kill). Thrown between two pieces of work,
+/// so that every file is whole.
+class Interrupted : public std::exception {
+public:
+    const char* what() const noexcept override {
+        return "interrupted; the same command goes on from here";
+    }
+};
+
+/// From now on SIGINT and SIGTERM are remembered instead of ending the program; the second one ends
+/// it at once.
+void catchInterrupts();
 
 /// A line on standard error that tells how far the work is and how long it will still take. It
 /// shows itself only on a terminal, and is gone when the object is.

@@ -314,8 +314,6 @@ void Bench::run(HiddenContextFactory hiddenContext) {
 
 } // namespace
 
-MadeCommand benchCommand(Options& options) {
-    return std::make_unique<Bench>(options);
-}
+const CommandRow kBenchCommand{"bench", "Measures how long frames and passes take", make<Bench>};
 
 } // namespace afterglow

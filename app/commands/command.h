@@ -18,17 +18,18 @@ public:
     virtual void run(HiddenContextFactory hiddenContext) = 0;
 };
 
-using MadeCommand = std::unique_ptr<Command>;
+/// A row of the list of commands.
+struct CommandRow {
+    const char *name, *help;
+    std::unique_ptr<Command> (*make)(Options& options);
+};
+template <class Made>
+std::unique_ptr<Command> make(Options& options) {
+    return std::make_unique<Made>(options);
+}
 
-// One file each.
-MadeCommand viewCommand(Options& options);
-MadeCommand renderCommand(Options& options);
-MadeCommand experimentCommand(Options& options);
-MadeCommand sweepCommand(Options& options);
-MadeCommand mergeCommand(Options& options);
-MadeCommand reportCommand(Options& options);
-MadeCommand importCommand(Options& options);
-MadeCommand benchCommand(Options& options);
-MadeCommand listCommand(Options& options);
+// Each is in the file of its command.
+extern const CommandRow kViewCommand, kRenderCommand, kExperimentCommand, kSweepCommand,
+    kMergeCommand, kReportCommand, kImportFramesCommand, kBenchCommand, kListCommand;
 
 } // namespace afterglow

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/command_line.h"
 
-#include "app/base/interrupt.h"
 #include "app/base/output.h"
+#include "app/base/progress.h"
 #include "app/commands/command.h"
 #include "renderer/base/error.h"
 #include "renderer/base/names.h"
@@ -19,28 +19,16 @@ namespace afterglow {
 
 namespace {
 
-struct CommandRow {
-    const char *name, *help;
-    MadeCommand (*make)(Options&);
-};
-constexpr CommandRow kCommands[] = {
-    {"view", "Opens a window on a scene", viewCommand},
-    {"render", "Renders frames into files", renderCommand},
-    {"experiment", "Compares filters while something changes, and measures them",
-     experimentCommand},
-    {"sweep", "Runs an experiment for each value of a setting: noise against lag", sweepCommand},
-    {"merge", "Puts the parts of a run together", mergeCommand},
-    {"report", "Makes the page of a run anew", reportCommand},
-    {"import-frames", "Scores the frames of another denoiser beside our filters", importCommand},
-    {"bench", "Measures how long frames and passes take", benchCommand},
-    {"list", "Tells what there is to choose from", listCommand}};
+constexpr const CommandRow* kCommands[] = {
+    &kViewCommand,   &kRenderCommand,       &kExperimentCommand, &kSweepCommand, &kMergeCommand,
+    &kReportCommand, &kImportFramesCommand, &kBenchCommand,      &kListCommand};
 
 /// A command with its place in the parser.
 struct Parsed {
     const CommandRow& row;
     CLI::App& app;
     Options options{app};
-    MadeCommand command;
+    std::unique_ptr<Command> command;
 
     Parsed(CLI::App& parent, const CommandRow& chosen)
         : row(chosen), app(*parent.add_subcommand(row.name, row.help)), command(row.make(options)) {
@@ -63,8 +51,8 @@ void refuseExtras(const CLI::App& app, const CLI::App* command) {
             for (const std::string& name : option->get_lnames())
                 names.push_back("--" + name);
     } else if (!command) {
-        for (const CommandRow& row : kCommands)
-            names.emplace_back(row.name);
+        for (const CommandRow* row : kCommands)
+            names.emplace_back(row->name);
     } else {
         throw UsageError(prefix + "one word too many: '" + word + "'");
     }
@@ -86,8 +74,8 @@ Examples:
   afterglow experiment light-off --out out/light-off
   afterglow list scenes)");
     std::vector<std::unique_ptr<Parsed>> commands;
-    for (const CommandRow& row : kCommands)
-        commands.push_back(std::make_unique<Parsed>(app, row));
+    for (const CommandRow* row : kCommands)
+        commands.push_back(std::make_unique<Parsed>(app, *row));
     const auto chosen = [&]() -> Parsed* {
         const auto found = std::ranges::find_if(
             commands, [](const auto& command) { return command->app.parsed(); });
@@ -107,15 +95,15 @@ Examples:
     refuseExtras(app, command ? &command->app : nullptr);
     if (!command) {
         std::vector<std::string> names;
-        for (const CommandRow& row : kCommands)
-            names.emplace_back(row.name);
+        for (const CommandRow* row : kCommands)
+            names.emplace_back(row->name);
         throw UsageError(
             fmt::format("a command is missing: {}; see afterglow --help", fmt::join(names, ", ")));
     }
     command->options.read();
     const int glErrors = glErrorCount();
     command->command->run(hiddenContext);
-    if (command->row.make != viewCommand) // whose window has said so meanwhile
+    if (&command->row != &kViewCommand) // whose window has said so meanwhile
         requireNoGlErrors(glErrors);
     return kDone;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/experiment/import_frames.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/progress.h"
 #include "app/commands/command.h"
 #include "app/commands/shared_options.h"
 #include "app/experiment/export_frames.h"
@@ -154,8 +154,8 @@ void ImportFrames::run(HiddenContextFactory hiddenContext) {
 
 } // namespace
 
-MadeCommand importCommand(Options& options) {
-    return std::make_unique<ImportFrames>(options);
-}
+const CommandRow kImportFramesCommand{"import-frames",
+                                      "Scores the frames of another denoiser beside our filters",
+                                      make<ImportFrames>};
 
 } // namespace afterglow

@@ -4,7 +4,6 @@
 #include "app/scenario/experiment.h"
 #include "app/scenario/presets.h"
 #include "renderer/pipeline/aov.h"
-#include "renderer/scene/load_scene.h"
 #include "renderer/scene/procedural.h"
 
 #include <algorithm>
@@ -140,8 +139,6 @@ private:
 
 } // namespace
 
-MadeCommand listCommand(Options& options) {
-    return std::make_unique<List>(options);
-}
+const CommandRow kListCommand{"list", "Tells what there is to choose from", make<List>};
 
 } // namespace afterglow

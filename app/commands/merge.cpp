@@ -36,8 +36,6 @@ private:
 
 } // namespace
 
-MadeCommand mergeCommand(Options& options) {
-    return std::make_unique<Merge>(options);
-}
+const CommandRow kMergeCommand{"merge", "Puts the parts of a run together", make<Merge>};
 
 } // namespace afterglow

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

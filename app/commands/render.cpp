@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/render.h"
 
-#include "app/base/aov_files.h"
 #include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/commands/command.h"
@@ -284,8 +283,6 @@ std::size_t cameraIndex(const Scene& scene, std::string_view name) {
     throw UsageError(scene.name + ": " + unknownName("camera", name, known));
 }
 
-MadeCommand renderCommand(Options& options) {
-    return std::make_unique<Render>(options);
-}
+const CommandRow kRenderCommand{"render", "Renders frames into files", make<Render>};
 
 } // namespace afterglow

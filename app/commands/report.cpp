@@ -28,8 +28,6 @@ private:
 
 } // namespace
 
-MadeCommand reportCommand(Options& options) {
-    return std::make_unique<Report>(options);
-}
+const CommandRow kReportCommand{"report", "Makes the page of a run anew", make<Report>};
 
 } // namespace afterglow

@@ -66,8 +66,6 @@ void View::run(HiddenContextFactory) {
 
 } // namespace
 
-MadeCommand viewCommand(Options& options) {
-    return std::make_unique<View>(options);
-}
+const CommandRow kViewCommand{"view", "Opens a window on a scene", make<View>};
 
 } // namespace afterglow

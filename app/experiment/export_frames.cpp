@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/experiment/export_frames.h"
 
-#include "app/base/aov_files.h"
 #include "app/base/machine.h"
 #include "app/experiment/run_files.h"
 #include "app/measure/truth.h"
@@ -10,9 +9,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 namespace afterglow {
 
@@ -24,13 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kAccount = "export.json";
 constexpr std::array kAovs{"raw", "albedo", "emission", "normal", "depth", "motion"};
 constexpr std::string_view kPreviousDepth = "previous_depth";
-
-/// The double that is written as shortly as the float.
-double shortest(float value) {
-    std::array<char, 32> text{};
-    std::to_chars(text.data(), text.data() + text.size(), value);
-    return std::strtod(text.data(), nullptr);
-}
 
 Json rowsOf(const glm::mat4& m) {
     Json rows = Json::array();

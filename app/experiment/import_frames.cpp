@@ -22,13 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct QuantityName {
-    Quantity quantity;
-    std::string_view name;
-};
-constexpr std::array kQuantities{
-    QuantityName{Quantity::Signal, "signal"}, QuantityName{Quantity::Lit, "lit"},
-    QuantityName{Quantity::Color, "color"}, QuantityName{Quantity::Display, "display"}};
+constexpr std::array<std::string_view, 4> kNames{"signal", "lit", "color",
+                                                 "display"}; // by Quantity
 
 std::string endingOf(const fs::path& file) {
     std::string ending = file.extension().string();
@@ -140,17 +135,14 @@ void requireGood(const fs::path& file, const Image<glm::vec4>& image, glm::ivec2
 } // namespace
 
 std::string_view nameOf(Quantity quantity) {
-    return std::ranges::find(kQuantities, quantity, &QuantityName::quantity)->name;
+    return kNames[std::size_t(quantity)];
 }
 
 Quantity quantityFromName(std::string_view name) {
-    std::vector<std::string_view> known;
-    for (const QuantityName& row : kQuantities) {
-        if (row.name == name)
-            return row.quantity;
-        known.push_back(row.name);
-    }
-    throwUnknownName("quantity", name, known);
+    const auto found = std::ranges::find(kNames, name);
+    if (found == kNames.end())
+        throwUnknownName("quantity", name, kNames);
+    return Quantity(found - kNames.begin());
 }
 
 ImportedFrames::ImportedFrames(std::string variant, const fs::path& folder,

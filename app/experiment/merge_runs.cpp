@@ -5,10 +5,10 @@
 #include "app/experiment/run_owner.h"
 #include "app/experiment/runner.h"
 #include "app/measure/metrics_table.h"
+#include "app/report/report.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 
@@ -153,7 +153,7 @@ void mergeRuns(const std::vector<fs::path>& parts, const OutputFolder& out, bool
     takeFolderForRuns(out, fresh);
     for (const auto& [name, run] : runs)
         mergeOne(run, out.subfolder(name), fresh);
-    writeSuite(out);
+    writeReport(out.path());
 }
 
 } // namespace afterglow

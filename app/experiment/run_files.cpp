@@ -5,11 +5,9 @@
 #include "app/measure/metrics_table.h"
 #include "app/measure/summary.h"
 #include "app/report/report.h"
-#include "app/report/run_sheet.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 
-#include <algorithm>
 #include <map>
 
 namespace afterglow {
@@ -104,10 +102,6 @@ void finishRun(const OutputFolder& folder) {
                     drawRunSheet(experiment, outline, table, summary, timing, path));
     folder.writeJson("summary.json", summary);
     writeReport(path);
-}
-
-void writeSuite(const OutputFolder& folder) {
-    writeReport(folder.path());
 }
 
 } // namespace afterglow

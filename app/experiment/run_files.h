@@ -29,9 +29,6 @@ void finishRun(const OutputFolder& folder);
 void mergeRuns(const std::vector<std::filesystem::path>& parts, const OutputFolder& out,
                bool fresh);
 
-/// The page of a folder of runs: report.html.
-void writeSuite(const OutputFolder& folder);
-
 /// A JSON file of a run; InputError names it if it is missing or damaged.
 nlohmann::ordered_json readJson(const std::filesystem::path& file);
 

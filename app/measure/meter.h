@@ -6,8 +6,6 @@
 #include "app/measure/truth.h"
 #include "renderer/image/flip.h"
 
-#include <deque>
-
 namespace afterglow {
 
 /// The weights and the history of one signal in one frame. An image that the filter does not make

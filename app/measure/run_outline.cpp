@@ -44,11 +44,11 @@ void writeOutline(const RunOutline& outline, nlohmann::ordered_json& json) {
 }
 
 RunOutline readOutline(const JsonReader& json, int frames) {
-    const auto settled = json.at("settled_window").list("the first frame and the end", 2, 2);
-    RunOutline outline{
-        .settled = {int(settled[0].wholeNumber(0, frames)), int(settled[1].wholeNumber(0, frames))},
-        .pictures = framesIn(json.at("pictures"), frames),
-        .changes = framesIn(json.at("changing_frames"), frames)};
+    const auto settled =
+        json.at("settled_window").vector<glm::ivec2>("the first frame and the end", 0, frames);
+    RunOutline outline{.settled = {settled[0], settled[1]},
+                       .pictures = framesIn(json.at("pictures"), frames),
+                       .changes = framesIn(json.at("changing_frames"), frames)};
     for (const JsonReader& event : json.at("events").list("a list of events", 0, kMostItems)) {
         const int first = int(event.at("frame").wholeNumber(1, frames - 1));
         if (!outline.events.empty())

@@ -40,21 +40,10 @@ std::optional<double> meanIn(const Curve& curve, FrameRange range) {
 /// Returns whether an aggregation describes events of this kind.
 bool describes(Aggregation aggregation, RunEvent::Kind kind) {
     using enum Aggregation;
-    switch (aggregation) {
-    case TimeTo:
-    case AreaAbove:
-    case Overshoot:
-    case BeforeMean:
-    case LateMean:
-    case OwnTimeTo:
-    case OwnAreaAbove:
-    case StepMean:
-    case SettleTime: return kind == RunEvent::Kind::Step;
-    case MotionMean: return kind == RunEvent::Kind::Motion;
-    case TrailMean:
-    case Recovery: return true;
-    default: return false;
-    }
+    if (kind == RunEvent::Kind::Step && aggregation >= TimeTo && aggregation <= SettleTime)
+        return true;
+    return (kind == RunEvent::Kind::Motion && aggregation == MotionMean) ||
+           aggregation == TrailMean || aggregation == Recovery;
 }
 
 /// The metrics of one variant.

@@ -29,6 +29,8 @@ struct TextStyle {
     /// Horizontal alignment: 0 puts the text's left end at the given place, 1 its right end.
     float align = 0.0f;
 
+    TextStyle aligned(float where) const { return {size, weight, color, where}; }
+    TextStyle colored(glm::u8vec3 other) const { return {size, weight, other, align}; }
     float width(std::string_view text) const { return textWidth(text, size, weight); }
 };
 

@@ -149,10 +149,8 @@ void drawHeading(Canvas& canvas, const ContactSheet& sheet, const Layout& l) {
     canvas.text({kMargin, kMargin + 22}, sheet.title, kTitle);
     canvas.text({kMargin, kMargin + 52}, sheet.subtitle, kSubtitle);
     for (std::size_t i = 0; i < sheet.columns.size(); ++i) {
-        TextStyle style = kCaption;
-        if (l.eventColumn == i)
-            style.color = kEventColor;
-        canvas.text({l.columnX(i), l.top - 10}, sheet.columns[i], style);
+        canvas.text({l.columnX(i), l.top - 10}, sheet.columns[i],
+                    l.eventColumn == i ? kCaption.colored(kEventColor) : kCaption);
     }
 }
 
@@ -160,9 +158,7 @@ void drawRow(Canvas& canvas, const SheetRow& row, const ContactSheet& sheet, con
              int y) {
     const int height = l.rowStep - kGap;
     canvas.fill({kMargin, y}, {3, height}, row.color);
-    TextStyle name = kName;
-    name.color = row.color;
-    canvas.text({kMargin + 16, y + 18}, row.name, name);
+    canvas.text({kMargin + 16, y + 18}, row.name, kName.colored(row.color));
     int baseline = y + 46;
     for (const auto& [note, value] : row.notes) {
         canvas.text({kMargin + 16, baseline}, note, kNote);

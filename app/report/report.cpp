@@ -8,6 +8,7 @@
 #include "renderer/base/file.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <system_error>
 
@@ -77,20 +78,11 @@ std::string assets(std::string_view ending) {
 /// Returns the page: the document with its style and script, `data` as JSON for the script to read,
 /// and the pictures. Whatever the texts in `data` and the title hold, they stay texts.
 std::string reportPage(std::string_view title, const Json& data, const PictureStore& pictures) {
-    const auto part = [&](std::string_view name) -> std::string {
-        if (name == "title")
-            return htmlText(title);
-        if (name == "style")
-            return assets(".css");
-        if (name == "script")
-            return assets(".js");
-        if (name == "data")
-            return scriptJson(data);
-        if (name == "pictures")
-            return pictures.html();
-        throw std::logic_error("report.html: no part is named " + std::string(name));
-    };
-
+    const std::map<std::string_view, std::string> parts{{"title", htmlText(title)},
+                                                        {"style", assets(".css")},
+                                                        {"script", assets(".js")},
+                                                        {"data", scriptJson(data)},
+                                                        {"pictures", pictures.html()}};
     std::string page;
     const std::string html = assets(".html");
     std::string_view rest = html;
@@ -99,7 +91,7 @@ std::string reportPage(std::string_view title, const Json& data, const PictureSt
         if (close == rest.npos)
             throw std::logic_error("report.html: {{ without }}");
         page += rest.substr(0, open);
-        page += part(rest.substr(open + 2, close - open - 2));
+        page += parts.at(rest.substr(open + 2, close - open - 2));
         rest.remove_prefix(close + 2);
     }
     page += rest;

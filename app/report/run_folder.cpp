@@ -61,8 +61,7 @@ Plan::Plan(const JsonReader& run) {
         if (!names.insert(variants.back()).second)
             variant.at("name").fail("a name that no other variant has");
     }
-    const auto edges = experiment.at("size").list("width and height", 2, 2);
-    size = {int(edges[0].wholeNumber(1, 65536)), int(edges[1].wholeNumber(1, 65536))};
+    size = experiment.at("size").vector<glm::ivec2>("width and height", 1, 65536);
     const int frames = int(experiment.at("frames").wholeNumber(1, kMostFrames));
     outline = readOutline(run, frames);
 }

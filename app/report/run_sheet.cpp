@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/report/run_sheet.h"
+#include "app/report/report.h"
 
 #include "app/base/output.h"
 #include "app/measure/metric.h"
+#include "app/report/contact_sheet.h"
 #include "renderer/image/image_io.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 

@@ -83,18 +83,14 @@ void drawGrid(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
     for (double f = std::ceil(a.firstFrame / xStep) * xStep; f <= a.lastFrame; f += xStep) {
         const float x = a.sharpX(f);
         canvas.line({x, a.upperLeft.y}, {x, a.lowerRight.y}, 1.0f, kGrid);
-        TextStyle style = kTick;
-        style.align = 0.5f;
-        canvas.text({x, a.lowerRight.y + 19.0f}, number(f), style);
+        canvas.text({x, a.lowerRight.y + 19.0f}, number(f), kTick.aligned(0.5f));
     }
     const double yStep =
         roundStep((a.yMax - a.yMin) * 30.0 / double(a.lowerRight.y - a.upperLeft.y));
     for (double v = std::ceil(a.yMin / yStep) * yStep; v <= a.yMax + 1e-9 * yStep; v += yStep) {
         const float y = a.sharpY(v);
         canvas.line({a.upperLeft.x, y}, {a.lowerRight.x, y}, 1.0f, kGrid);
-        TextStyle style = kTick;
-        style.align = 1.0f;
-        canvas.text({a.upperLeft.x - 10.0f, y + 4.0f}, number(v), style);
+        canvas.text({a.upperLeft.x - 10.0f, y + 4.0f}, number(v), kTick.aligned(1.0f));
     }
     for (const auto& [value, name] : plot.levels) {
         const float y = a.sharpY(value);
@@ -104,19 +100,14 @@ void drawGrid(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
     const glm::vec2 origin(std::floor(a.upperLeft.x) + 0.5f, std::floor(a.lowerRight.y) + 0.5f);
     canvas.line(origin, {a.lowerRight.x, origin.y}, 1.0f, kAxis);
     canvas.line(origin, {origin.x, a.upperLeft.y}, 1.0f, kAxis);
-    TextStyle label = kTick;
-    label.align = 1.0f;
-    canvas.text({a.lowerRight.x, a.lowerRight.y + 38.0f}, plot.xLabel, label);
+    canvas.text({a.lowerRight.x, a.lowerRight.y + 38.0f}, plot.xLabel, kTick.aligned(1.0f));
 }
 
 void drawEvents(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
     for (const int frame : plot.events) {
         const float x = a.sharpX(frame);
         canvas.line({x, a.upperLeft.y}, {x, a.lowerRight.y}, 1.0f, kEventColor, 0.8f);
-        TextStyle style = kTick;
-        style.color = kEventColor;
-        style.align = 0.5f;
-        canvas.text({x, a.upperLeft.y - 6.0f}, "event", style);
+        canvas.text({x, a.upperLeft.y - 6.0f}, "event", kTick.aligned(0.5f).colored(kEventColor));
     }
 }
 
@@ -146,8 +137,7 @@ void drawMarks(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
         canvas.dot(at, 5.5f, kGround);
         canvas.dot(at, 4.0f, curve.color);
 
-        TextStyle style = kMark;
-        style.color = curve.color;
+        const TextStyle style = kMark.colored(curve.color);
         const float width = style.width(curve.mark);
         Box box{{at.x + 10.0f, at.y + 6.0f}, {at.x + 10.0f + width, at.y + 20.0f}};
         const auto overlaps = [&](const Box& b) {
@@ -160,8 +150,8 @@ void drawMarks(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
         }
         taken.push_back(box);
         const glm::vec2 baseline(box.min.x, box.max.y - 3.0f);
-        TextStyle halo = style; // keeps lines that run behind the text away from it
-        halo.color = kGround;
+        // Keeps lines that run behind the text away from it.
+        const TextStyle halo = style.colored(kGround);
         for (int y = -2; y <= 2; ++y)
             for (int x = -2; x <= 2; ++x)
                 canvas.text(baseline + glm::vec2(x, y), curve.mark, halo);
@@ -171,8 +161,7 @@ void drawMarks(Canvas& canvas, const SheetPlot& plot, const Axes& a) {
 
 void drawLegend(Canvas& canvas, const SheetPlot& plot, glm::vec2 rightEnd) {
     for (auto curve = plot.curves.rbegin(); curve != plot.curves.rend(); ++curve) {
-        TextStyle style = kLegend;
-        style.align = 1.0f;
+        const TextStyle style = kLegend.aligned(1.0f);
         canvas.text(rightEnd, curve->name, style);
         rightEnd.x -= std::ceil(style.width(curve->name)) + 10.0f;
         const float y = std::floor(rightEnd.y - 5.0f) + 0.5f;

@@ -6,7 +6,6 @@
 #include "renderer/base/file.h"
 #include "renderer/base/names.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace afterglow {

@@ -7,9 +7,7 @@
 #include "renderer/base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -33,26 +31,8 @@ bool isPath(std::string_view text, std::initializer_list<std::string_view> endin
                        [&](auto end) { return text.ends_with(end); });
 }
 
-glm::ivec2 readSize(const JsonReader& json) {
-    const std::vector<JsonReader> edges = json.list("[width, height]", 2, 2);
-    return {int(edges[0].wholeNumber(1, kMostEdge)), int(edges[1].wholeNumber(1, kMostEdge))};
-}
-
-glm::vec3 readTint(const JsonReader& json) {
-    const std::vector<JsonReader> channels = json.list("[red, green, blue]", 3, 3);
-    glm::vec3 tint;
-    for (int i = 0; i < 3; ++i)
-        tint[i] = float(channels[std::size_t(i)].number(0.0, kMostPower));
-    return tint;
-}
-
 glm::vec3 readPoint(const JsonReader& json) {
-    constexpr double kFar = 1e6;
-    const std::vector<JsonReader> axes = json.list("[x, y, z]", 3, 3);
-    glm::vec3 point;
-    for (int i = 0; i < 3; ++i)
-        point[i] = float(axes[std::size_t(i)].number(-kFar, kFar));
-    return point;
+    return json.vector<glm::vec3>("[x, y, z]", -1e6, 1e6);
 }
 
 std::string readName(const JsonReader& json) {
@@ -69,6 +49,13 @@ std::string readScene(const JsonReader& json) {
     if (!isPath(scene, {".gltf", ".glb"}))
         return scene;
     return (std::filesystem::path(json.source()).parent_path() / scene).lexically_normal().string();
+}
+
+auto numberIn(double least, double most) {
+    return [=](const JsonReader& json) { return json.number(least, most); };
+}
+auto wholeIn(std::int64_t least, std::int64_t most) {
+    return [=](const JsonReader& json) { return json.wholeNumber(least, most); };
 }
 
 Signal readSignal(const JsonReader& json) {
@@ -130,12 +117,11 @@ LightEvent readLightEvent(const JsonReader& json, int frame) {
     LightEvent event{.frame = frame, .light = json.at("light").text()};
     if (event.light.empty())
         json.at("light").fail("the name of a light, or \"*\" for all");
-    if (const auto on = json.find("on"))
-        event.on = on->boolean();
-    if (const auto power = json.find("power"))
-        event.power = float(power->number(0.0, kMostPower));
-    if (const auto tint = json.find("tint"))
-        event.tint = readTint(*tint);
+    readIfThere(json, "on", event.on, &JsonReader::boolean);
+    readIfThere(json, "power", event.power, numberIn(0.0, kMostPower));
+    readIfThere(json, "tint", event.tint, [](const JsonReader& tint) {
+        return tint.vector<glm::vec3>("[red, green, blue]", 0.0, kMostPower);
+    });
     if (!event.on && !event.power && !event.tint)
         json.fail("one of \"on\", \"power\" and \"tint\"");
     return event;
@@ -202,13 +188,6 @@ Timeline readTimeline(const JsonReader& json) {
         }
     }
     return Timeline(frames, std::move(events));
-}
-
-/// Returns the double that is written as shortly as the float: 0.1, not 0.10000000149.
-double shortest(float value) {
-    std::array<char, 32> text{};
-    std::to_chars(text.data(), text.data() + text.size(), value);
-    return std::strtod(text.data(), nullptr);
 }
 
 Json listOf(glm::vec3 v) {
@@ -282,22 +261,16 @@ Experiment readExperiment(const JsonReader& json) {
     experiment.scene = readScene(json.at("scene"));
     experiment.variants = readVariants(json.at("variants"));
     experiment.timeline = readTimeline(json);
-    if (const auto description = json.find("description"))
-        experiment.description = description->text();
-    if (const auto size = json.find("size"))
-        experiment.size = readSize(*size);
-    if (const auto rate = json.find("rate"))
-        experiment.rate = rate->number(0.001, 1000.0);
-    if (const auto seed = json.find("seed"))
-        experiment.seed = std::uint32_t(seed->wholeNumber(0, 0xffffffffll));
-    if (const auto signal = json.find("signal"))
-        experiment.signal = readSignal(*signal);
-    if (const auto animated = json.find("animated"))
-        experiment.animated = animated->boolean();
-    if (const auto samples = json.find("referenceSamples"))
-        experiment.referenceSamples = int(samples->wholeNumber(1, kMostSamples));
-    if (const auto window = json.find("settledWindow"))
-        experiment.settledWindow = int(window->wholeNumber(1, kMostFrames));
+    readIfThere(json, "description", experiment.description, &JsonReader::text);
+    readIfThere(json, "size", experiment.size, [](const JsonReader& size) {
+        return size.vector<glm::ivec2>("[width, height]", 1, kMostEdge);
+    });
+    readIfThere(json, "rate", experiment.rate, numberIn(0.001, 1000.0));
+    readIfThere(json, "seed", experiment.seed, wholeIn(0, 0xffffffffll));
+    readIfThere(json, "signal", experiment.signal, readSignal);
+    readIfThere(json, "animated", experiment.animated, &JsonReader::boolean);
+    readIfThere(json, "referenceSamples", experiment.referenceSamples, wholeIn(1, kMostSamples));
+    readIfThere(json, "settledWindow", experiment.settledWindow, wholeIn(1, kMostFrames));
     return experiment;
 }
 

@@ -28,6 +28,14 @@ struct SceneFrame {
     bool operator==(const SceneFrame&) const = default;
 };
 
+/// A recorded sequence of frames. Their numbers rise by one.
+struct Take {
+    std::string name{};
+    std::vector<SceneFrame> frames{};
+
+    bool operator==(const Take&) const = default;
+};
+
 /// Returns the state of a light in a list that may miss it: it is as the scene has it.
 LightState lightIn(std::span<const LightState> lights, std::size_t slot);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/scenario/run_plan.h"
-#include "app/scenario/take.h"
+#include "app/scenario/scene_frame.h"
 
 #include <string>
 

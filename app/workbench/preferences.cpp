@@ -2,15 +2,13 @@
 #include "app/workbench/preferences.h"
 
 #include "app/base/json_reader.h"
+#include "app/base/output.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
@@ -25,22 +23,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxBytes = 1 << 20;
 
-/// As few digits as make the same float again.
-Json shortest(float value) {
-    std::array<char, 40> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return Json::parse(digits.data(), end);
-}
-
 // What is read replaces a default; each function throws InputError for what it cannot read.
-
-void readWindowSize(Preferences& p, const JsonReader& json) {
-    const auto size = json.list("a width and a height", 2, 2);
-    const auto length = [](const JsonReader& value) {
-        return int(value.wholeNumber(kLeastWindow, kMostWindow));
-    };
-    p.windowSize = {length(size[0]), length(size[1])};
-}
 
 void readUiScale(Preferences& p, const JsonReader& json) {
     const double scale = json.number(0.0, 4.0);
@@ -62,25 +45,18 @@ void readRecentFiles(Preferences& p, const JsonReader& json) {
     p.recentFiles = std::move(files);
 }
 
-glm::quat readOrientation(const JsonReader& json) {
-    const auto q = json.list("a rotation of 4 numbers: w, x, y, z", 4, 4);
-    const auto part = [&](int i) { return float(q[std::size_t(i)].number(-1.001, 1.001)); };
-    const glm::quat orientation(part(0), part(1), part(2), part(3));
-    if (std::abs(glm::dot(orientation, orientation) - 1.0f) > 1e-3f)
-        json.fail("a rotation: w, x, y, z of length 1");
-    return orientation;
-}
-
 CameraBookmark readBookmark(const JsonReader& json) {
     json.expectKeys({"name", "position", "orientation", "verticalFov"});
-    CameraBookmark bookmark;
-    bookmark.name = json.at("name").text();
-    const auto position = json.at("position").list("a position of 3 numbers", 3, 3);
-    for (int i = 0; i < 3; ++i)
-        bookmark.position[i] = float(position[std::size_t(i)].number(-1e30, 1e30));
-    bookmark.orientation = readOrientation(json.at("orientation"));
-    bookmark.verticalFov = float(json.at("verticalFov").number(0.01, 3.14));
-    return bookmark;
+    const JsonReader orientation = json.at("orientation");
+    const auto q =
+        orientation.vector<glm::vec4>("a rotation of 4 numbers: w, x, y, z", -1.001, 1.001);
+    if (std::abs(glm::dot(q, q) - 1.0f) > 1e-3f)
+        orientation.fail("a rotation: w, x, y, z of length 1");
+    return {.name = json.at("name").text(),
+            .position =
+                json.at("position").vector<glm::vec3>("a position of 3 numbers", -1e30, 1e30),
+            .orientation = glm::quat(q[0], q[1], q[2], q[3]),
+            .verticalFov = float(json.at("verticalFov").number(0.01, 3.14))};
 }
 
 void readBookmarks(Preferences& p, const JsonReader& json) {
@@ -91,22 +67,64 @@ void readBookmarks(Preferences& p, const JsonReader& json) {
     p.bookmarks = std::move(bookmarks);
 }
 
+Json toJson(const CameraBookmark& bookmark) {
+    const glm::vec3& p = bookmark.position;
+    const glm::quat& q = bookmark.orientation;
+    return {{"name", bookmark.name},
+            {"position", {shortest(p.x), shortest(p.y), shortest(p.z)}},
+            {"orientation", {shortest(q.w), shortest(q.x), shortest(q.y), shortest(q.z)}},
+            {"verticalFov", shortest(bookmark.verticalFov)}};
+}
+
+/// A member of the file, read and written.
 struct Member {
     std::string_view key;
     void (*read)(Preferences&, const JsonReader&);
+    Json (*write)(const Preferences&);
 };
 
+/// A truth value or a text.
+template <auto member>
+constexpr Member plain(std::string_view key) {
+    return {key,
+            [](Preferences& p, const JsonReader& json) {
+                if constexpr (std::is_same_v<decltype(p.*member), bool&>)
+                    p.*member = json.boolean();
+                else
+                    p.*member = json.text();
+            },
+            [](const Preferences& p) { return Json(p.*member); }};
+}
+
 constexpr Member kMembers[] = {
-    {"windowSize", readWindowSize},
-    {"showPanel", [](Preferences& p, const JsonReader& json) { p.showPanel = json.boolean(); }},
-    {"uiScale", readUiScale},
-    {"vsync", [](Preferences& p, const JsonReader& json) { p.vsync = json.boolean(); }},
-    {"smoothScaling",
-     [](Preferences& p, const JsonReader& json) { p.smoothScaling = json.boolean(); }},
-    {"lastScene", [](Preferences& p, const JsonReader& json) { p.lastScene = json.text(); }},
-    {"recentFiles", readRecentFiles},
-    {"bookmarks", readBookmarks},
-    {"tourDone", [](Preferences& p, const JsonReader& json) { p.tourDone = json.boolean(); }},
+    {"windowSize",
+     [](Preferences& p, const JsonReader& json) {
+         p.windowSize = json.vector<glm::ivec2>("a width and a height", kLeastWindow, kMostWindow);
+     },
+     [](const Preferences& p) {
+         return Json{p.windowSize.x, p.windowSize.y};
+     }},
+    plain<&Preferences::showPanel>("showPanel"),
+    {"uiScale", readUiScale, [](const Preferences& p) { return Json(shortest(p.uiScale)); }},
+    plain<&Preferences::vsync>("vsync"),
+    plain<&Preferences::smoothScaling>("smoothScaling"),
+    plain<&Preferences::lastScene>("lastScene"),
+    {"recentFiles", readRecentFiles,
+     [](const Preferences& p) {
+         Json files = Json::array();
+         for (const fs::path& file : p.recentFiles)
+             files.push_back(file.string());
+         return files;
+     }},
+    {"bookmarks", readBookmarks,
+     [](const Preferences& p) {
+         Json bookmarks = Json::object();
+         for (const auto& [scene, places] : p.bookmarks)
+             for (const CameraBookmark& place : places)
+                 bookmarks[scene].push_back(toJson(place));
+         return bookmarks;
+     }},
+    plain<&Preferences::tourDone>("tourDone"),
 };
 
 /// Throws for a file that cannot be read at all; what is wrong inside it is collected.
@@ -124,37 +142,6 @@ std::vector<std::string> read(Preferences& preferences, const fs::path& path) {
         }
     }
     return faults;
-}
-
-Json toJson(const CameraBookmark& bookmark) {
-    Json json;
-    json["name"] = bookmark.name;
-    for (int i = 0; i < 3; ++i)
-        json["position"].push_back(shortest(bookmark.position[i]));
-    const glm::quat& q = bookmark.orientation;
-    for (const float part : {q.w, q.x, q.y, q.z})
-        json["orientation"].push_back(shortest(part));
-    json["verticalFov"] = shortest(bookmark.verticalFov);
-    return json;
-}
-
-Json toJson(const Preferences& p) {
-    Json json;
-    json["windowSize"] = {p.windowSize.x, p.windowSize.y};
-    json["showPanel"] = p.showPanel;
-    json["uiScale"] = shortest(p.uiScale);
-    json["vsync"] = p.vsync;
-    json["smoothScaling"] = p.smoothScaling;
-    json["lastScene"] = p.lastScene;
-    json["recentFiles"] = Json::array();
-    for (const fs::path& file : p.recentFiles)
-        json["recentFiles"].push_back(file.string());
-    json["bookmarks"] = Json::object();
-    for (const auto& [scene, places] : p.bookmarks)
-        for (const CameraBookmark& place : places)
-            json["bookmarks"][scene].push_back(toJson(place));
-    json["tourDone"] = p.tourDone;
-    return json;
 }
 
 bool isThere(const fs::path& path) {
@@ -229,15 +216,14 @@ LoadedPreferences loadPreferences(const fs::path& path) {
 }
 
 void savePreferences(const fs::path& path, const Preferences& preferences) {
-    std::error_code error;
     if (path.has_parent_path())
-        fs::create_directories(path.parent_path(), error);
-    if (error)
-        throw Error(path.parent_path().string() + ": cannot be created: " + error.message());
+        const OutputFolder made(path.parent_path());
     if (!loadPreferences(path).warning.empty())
         keepBroken(path);
-    writeFileAtomically(
-        path, toJson(preferences).dump(4, ' ', false, Json::error_handler_t::replace) + "\n");
+    Json json;
+    for (const Member& member : kMembers)
+        json[std::string(member.key)] = member.write(preferences);
+    writeFileAtomically(path, json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void resetPreferences(const fs::path& path) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What Workbench does with files and with the clipboard.
 
-#include "app/base/aov_files.h"
 #include "app/base/output.h"
 #include "app/measure/probe_csv.h"
 #include "app/scenario/experiment.h"
