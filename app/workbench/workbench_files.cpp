@@ -8,7 +8,7 @@
 #include "app/scenario/run_plan.h"
 #include "app/scenario/take_experiment.h"
 #include "app/workbench/tour.h"
-#include "app/workbench/workbench_impl.h"
+#include "app/workbench/workbench.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/base/log.h"
@@ -36,7 +36,7 @@ PaneLayout layoutFor(std::size_t variants) {
 
 } // namespace
 
-void Workbench::Impl::attempt(const std::function<void()>& action) {
+void Workbench::attempt(const std::function<void()>& action) {
     try {
         action();
     } catch (const Error& error) {
@@ -45,12 +45,12 @@ void Workbench::Impl::attempt(const std::function<void()>& action) {
     }
 }
 
-void Workbench::Impl::serveRequests() {
+void Workbench::serveRequests() {
     Requests& wanted = state.wanted;
     const auto asked = [](bool& flag) { return std::exchange(flag, false); };
     if (const std::string name = std::exchange(wanted.open, {}); !name.empty())
-        owner.open(name);
-    if (asked(wanted.leaveExperiment) && suspended)
+        open(name);
+    if (asked(wanted.leaveExperiment) && suspended_)
         leaveExperiment();
     if (wanted.passStep != 0) {
         const int step = wanted.passStep > 0 ? 1 : -1;
@@ -60,7 +60,7 @@ void Workbench::Impl::serveRequests() {
     if (asked(wanted.fitRange))
         fitRange();
     if (asked(wanted.picture))
-        owner.save(composedView());
+        save(composedView());
     if (asked(wanted.imageFiles))
         attempt([&] { saveImageFiles(); });
     if (asked(wanted.record))
@@ -68,8 +68,8 @@ void Workbench::Impl::serveRequests() {
     if (wanted.copyCurves || wanted.saveCurves)
         collect(); // curves are whole
     if (asked(wanted.copyCurves)) {
-        copied = curvesText();
-        notify(state, "The curves of " + std::to_string(log.frames().size()) +
+        copied_ = curvesText();
+        notify(state, "The curves of " + std::to_string(log_.frames().size()) +
                           " frames are in the clipboard, as CSV");
     }
     if (asked(wanted.saveCurves))
@@ -77,47 +77,47 @@ void Workbench::Impl::serveRequests() {
     if (asked(wanted.saveTake))
         attempt([&] { saveTake(); });
     if (asked(wanted.copyPreset)) {
-        copied = presetText(presetOf("copied", settingsOf(state.panes, state.panes.active)));
+        copied_ = presetText(presetOf("copied", settingsOf(state.panes, state.panes.active)));
         notify(state, "The preset is in the clipboard");
     }
     if (const std::string name = std::exchange(wanted.savePreset, {}); !name.empty())
         attempt([&] { savePreset(name); });
     if (const std::string name = std::exchange(wanted.removePreset, {}); !name.empty())
         attempt([&] {
-            presets.remove(name);
+            presets_.remove(name);
             notify(state, "Removed the preset " + name);
         });
 }
 
-void Workbench::Impl::fitRange() {
+void Workbench::fitRange() {
     const std::size_t pane = state.panes.active, index = state.shown.index;
-    if (state.shown.kind != Shown::Kind::Image || !renderer.ran(pane))
+    if (state.shown.kind != Shown::Kind::Image || !renderer_.ran(pane))
         return;
-    const std::size_t signal = shownSignal(state, renderer.signals().size());
+    const std::size_t signal = shownSignal(state, renderer_.signals().size());
     ImageDisplay& display = state.displays[index];
     if (!isTruth(index)) {
-        if (isMadeBy(images()[index], renderer.ran(pane)->settings))
-            display = fittedTo(readAov(renderer, images()[index], pane, signal), display);
-    } else if (const GpuTexture* const image = oracle.image(index - aovs().size(), pane, signal)) {
+        if (isMadeBy(images()[index], renderer_.ran(pane)->settings))
+            display = fittedTo(readAov(renderer_, images()[index], pane, signal), display);
+    } else if (const GpuTexture* const image = oracle_.image(index - aovs().size(), pane, signal)) {
         display = fittedTo(image->read<glm::vec4>(), display);
     } else {
         notify(state, "There is nothing yet that a range could be fitted to", true);
     }
 }
 
-Image<glm::u8vec4> Workbench::Impl::composedView() {
+Image<glm::u8vec4> Workbench::composedView() {
     std::array<Image<glm::u8vec4>, kFilterStates> images;
     for (const std::size_t pane : shownPanes(state.panes))
-        if (const GpuTexture* const picture = pictures.of(sources(), pane))
+        if (const GpuTexture* const picture = pictures_.of(sources(), pane))
             images[pane] = picture->read<glm::u8vec4>();
     return composed(state.panes, images);
 }
 
 void Workbench::save(const Image<glm::u8vec4>& picture) {
-    impl_->attempt([&] {
+    attempt([&] {
         if (picture.size().x == 0)
             return notify(state, "There is no picture before the next frame", true);
-        const auto path = freePath(impl_->folders.output, "afterglow", ".png");
+        const auto path = freePath(folders_.output, "afterglow", ".png");
         writePng(path, picture);
         notify(state, "Saved " + path.string());
         afterglow::log(LogLevel::Info, "saved " + path.string());
@@ -125,31 +125,31 @@ void Workbench::save(const Image<glm::u8vec4>& picture) {
 }
 
 // Every image that the active filter makes, as 32-bit float, and the picture.
-void Workbench::Impl::saveImageFiles() {
+void Workbench::saveImageFiles() {
     const std::size_t pane = state.panes.active;
-    if (!now || !renderer.ran(pane))
+    if (!now_ || !renderer_.ran(pane))
         return;
-    const OutputFolder folder(freePath(folders.output, "afterglow-images", ""));
+    const OutputFolder folder(freePath(folders_.output, "afterglow-images", ""));
     int count = 0;
     for (const AovInfo& aov : aovs())
-        if (isMadeBy(aov, renderer.ran(pane)->settings))
-            count += writeAov(folder, "exr", renderer, aov, {}, pane);
-    folder.writePng("picture.png", renderer.display(pane).read<glm::u8vec4>());
+        if (isMadeBy(aov, renderer_.ran(pane)->settings))
+            count += writeAov(folder, "exr", renderer_, aov, {}, pane);
+    folder.writePng("picture.png", renderer_.display(pane).read<glm::u8vec4>());
     notify(state, "Saved " + std::to_string(count) + " images in " + folder.path().string());
 }
 
-std::string Workbench::Impl::curvesText() const {
+std::string Workbench::curvesText() const {
     const std::string& scene = state.experiment.empty() ? state.sceneName : state.experiment;
-    return toCsv(log, {scene, nowSeed, renderer.size()});
+    return toCsv(log_, {scene, nowSeed_, renderer_.size()});
 }
 
-void Workbench::Impl::saveCurves() {
-    const auto path = freePath(folders.output, "afterglow-curves", ".csv");
+void Workbench::saveCurves() {
+    const auto path = freePath(folders_.output, "afterglow-curves", ".csv");
     writeFileAtomically(path, curvesText());
     notify(state, "Saved " + path.string());
 }
 
-void Workbench::Impl::saveTake() {
+void Workbench::saveTake() {
     const Transport& time = state.time;
     const Take* const take =
         time.playing ? &time.playing->take : (time.recorded ? &*time.recorded : nullptr);
@@ -159,11 +159,11 @@ void Workbench::Impl::saveTake() {
         throw UsageError("this take is of the experiment " + state.experiment +
                          ", which is a file already");
     Experiment base;
-    const auto path = freePath(folders.output, "afterglow-take", ".json");
+    const auto path = freePath(folders_.output, "afterglow-take", ".json");
     base.name = path.stem().string();
     base.description = "Recorded in the window";
     base.scene = state.sceneName;
-    base.size = renderer.size();
+    base.size = renderer_.size();
     base.seed = state.seed;
     base.signal = Signal(state.panes.frame.lighting.signal);
     for (const std::size_t pane : shownPanes(state.panes)) {
@@ -174,32 +174,32 @@ void Workbench::Impl::saveTake() {
     }
     // Filters settle before the take begins.
     constexpr int kLeadIn = 32;
-    writeFileAtomically(path, experimentText(*take, renderer.scene(), base, kLeadIn));
+    writeFileAtomically(path, experimentText(*take, renderer_.scene(), base, kLeadIn));
     notify(state, "Saved " + path.string() + ": afterglow experiment measures it");
 }
 
-void Workbench::Impl::savePreset(const std::string& name) {
+void Workbench::savePreset(const std::string& name) {
     Preset preset = presetOf(name, settingsOf(state.panes, state.panes.active));
     preset.title = name.substr(0, kTitleLength);
     preset.description = "Saved from pane " + std::string(1, letterOf(state.panes.active));
     preset.source = "own choice";
-    presets.save(preset);
+    presets_.save(preset);
     setPane(state.panes, state.panes.active, preset.title, state.settings());
-    notify(state, "Saved as " + (presets.folder() / (name + ".json")).string());
+    notify(state, "Saved as " + (presets_.folder() / (name + ".json")).string());
 }
 
-void Workbench::Impl::recordFrames() {
-    if (recorder.isRecording())
-        return recorder.stop();
+void Workbench::recordFrames() {
+    if (recorder_.isRecording())
+        return recorder_.stop();
     const glm::ivec2 size = composedView().size();
     if (size.x == 0)
         return;
     const auto frames = state.recordFrames > 0 ? std::optional(state.recordFrames) : std::nullopt;
-    recorder.start(folders.output, size, kRecordedRate, frames);
+    recorder_.start(folders_.output, size, kRecordedRate, frames);
     notify(state, "Recording: F9 ends it");
 }
 
-void Workbench::Impl::enter(Scene scene, const std::string& sceneName, const std::string& opened) {
+void Workbench::enter(Scene scene, const std::string& sceneName, const std::string& opened) {
     state.sceneName = state.preferences.lastScene = sceneName;
     state.experiment.clear();
     if (isFile(opened))
@@ -208,31 +208,31 @@ void Workbench::Impl::enter(Scene scene, const std::string& sceneName, const std
     replaceScene(std::move(scene));
 }
 
-void Workbench::Impl::replaceScene(Scene scene) {
-    renderer.setScene(std::move(scene));
-    oracle.end();
-    capture.clear();
-    checkpoint.reset();
-    now.reset();
-    before.reset();
+void Workbench::replaceScene(Scene scene) {
+    renderer_.setScene(std::move(scene));
+    oracle_.end();
+    capture_.clear();
+    checkpoint_.reset();
+    now_.reset();
+    before_.reset();
     forgetMeasured();
 }
 
-void Workbench::Impl::forgetMeasured() {
-    instruments.drop();
-    log.clear();
-    inspection.reset();
-    reasons = {};
+void Workbench::forgetMeasured() {
+    instruments_.drop();
+    log_.clear();
+    inspection_.reset();
+    reasons_ = {};
 }
 
-void Workbench::Impl::openExperiment(const std::string& nameOrPath) {
+void Workbench::openExperiment(const std::string& nameOrPath) {
     const Experiment wanted = loadExperiment(nameOrPath);
     StagedRun run = stagedRun(wanted);
     Take take = takeOf(wanted, run);
     if (state.frozen)
         toggleFreeze(state);
-    if (!suspended)
-        suspended = {state, renderer.scene()};
+    if (!suspended_)
+        suspended_ = {state, renderer_.scene()};
     enter(std::move(run.scene), wanted.scene, nameOrPath);
     state.experiment = wanted.name;
 
@@ -257,9 +257,9 @@ void Workbench::Impl::openExperiment(const std::string& nameOrPath) {
 }
 
 // Restores the state from before the experiment, but for preferences. Histories start anew.
-void Workbench::Impl::leaveExperiment() {
+void Workbench::leaveExperiment() {
     notify(state, "Left the experiment " + state.experiment);
-    Suspended left = *std::exchange(suspended, {});
+    Suspended left = *std::exchange(suspended_, {});
     left.state.preferences = std::move(state.preferences);
     left.state.preferences.lastScene = left.state.sceneName;
     left.state.notice = std::move(state.notice);
@@ -279,13 +279,13 @@ bool Workbench::isExperiment(const std::string& nameOrPath) {
 }
 
 void Workbench::open(const std::string& nameOrPath) {
-    impl_->attempt([&] {
+    attempt([&] {
         if (isExperiment(nameOrPath))
-            return impl_->openExperiment(nameOrPath);
+            return openExperiment(nameOrPath);
         Scene scene = loadScene(nameOrPath);
-        if (impl_->suspended)
-            impl_->leaveExperiment();
-        impl_->enter(std::move(scene), nameOrPath, nameOrPath);
+        if (suspended_)
+            leaveExperiment();
+        enter(std::move(scene), nameOrPath, nameOrPath);
         notify(state, "Opened " + nameOrPath);
     });
 }
@@ -299,13 +299,13 @@ void Workbench::enterTourStop(std::size_t index, glm::ivec2 view) {
     }
     if (state.sceneName != tour[index].scene || !state.experiment.empty())
         open(tour[index].scene);
-    impl_->forgetMeasured();
+    forgetMeasured();
     enterStop(state, tour[index], glm::max(renderSize(state.resolution, view), glm::ivec2(1)));
     state.tourStop = index;
 }
 
 void Workbench::paste(const std::string& text) {
-    impl_->attempt([&] {
+    attempt([&] {
         const Preset preset = parsePreset(text, "clipboard");
         setPane(state.panes, state.panes.active, preset.title,
                 settingsOf(preset.variant, Signal::Both));
