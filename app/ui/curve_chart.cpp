@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "app/ui/curve_chart.h"
+#include "app/ui/curves.h"
 
-#include "app/ui/theme.h"
+#include "app/ui/widgets.h"
 
 #include <algorithm>
 #include <array>
@@ -234,7 +234,7 @@ void drawAxis(ImDrawList& draw, const Plot& plot) {
 std::optional<std::size_t> drawCurves(const PanelContext& panel, const CurveChart& chart,
                                       const UiRect& where, std::optional<ImVec2> mouse) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    ImGui::PushFont(panel.fonts.small);
+    const WithFont letters(panel.fonts.small);
     const float left = 3.6f * em(), texts = 1.35f * em(), below = 1.25f * em();
     Plot plot;
     plot.area = {{where.min.x + left, where.min.y + texts},
@@ -243,10 +243,8 @@ std::optional<std::size_t> drawCurves(const PanelContext& panel, const CurveChar
     const std::size_t all = chart.log.frames().size();
     plot.count = std::min(all, std::size_t(plot.span));
     plot.first = all - plot.count;
-    if (plot.area.size.x < 4.0f * em() || plot.area.size.y < 2.0f * em()) {
-        ImGui::PopFont();
+    if (plot.area.size.x < 4.0f * em() || plot.area.size.y < 2.0f * em())
         return {};
-    }
     plot.axis = axisOf(chart, plot.first);
     draw.AddRectFilled(plot.area.min, plot.area.end(), packed(color::rgb(0x0f1114)));
     drawAxis(draw, plot);
@@ -277,7 +275,6 @@ std::optional<std::size_t> drawCurves(const PanelContext& panel, const CurveChar
         if (line.probe == chart.activeProbe)
             drawReached(draw, plot, line);
     draw.PopClipRect();
-    ImGui::PopFont();
     return hovered;
 }
 

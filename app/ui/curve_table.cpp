@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/ui/curve_table.h"
+#include "app/ui/curves.h"
 
 #include "app/ui/theme.h"
 #include "app/ui/widgets.h"
@@ -85,11 +85,10 @@ void drawRow(const PanelContext& panel, const TableRow& row, const Columns& colu
         ImFont* const font = !row.cells[i].isNumber ? panel.fonts.text
                              : large                ? panel.fonts.large
                                                     : panel.fonts.strong;
-        ImGui::PushFont(font);
+        const WithFont letters(font);
         textUpTo(draw, {at.x + columns.ends[i], middle - 0.5f * em()},
                  row.cells[i].isNumber ? paneColor(row.pane) : packed(color::kFaint),
                  row.cells[i].text);
-        ImGui::PopFont();
     }
 }
 
@@ -162,10 +161,9 @@ void valueTable(const PanelContext& panel, std::span<const CurveLine> lines, con
                      packed(color::kText),
                      clipped(titleOf(panel.state.panes, line.pane), 9.0f * em()).c_str());
         const float value = line.values.empty() ? NAN : line.values.back();
-        ImGui::PushFont(height > 2.0f * em() ? panel.fonts.large : panel.fonts.strong);
+        const WithFont letters(height > 2.0f * em() ? panel.fonts.large : panel.fonts.strong);
         textUpTo(draw, {where.end().x - 0.5f * em(), middle - 0.5f * em()}, paneColor(line.pane),
                  std::isfinite(value) ? formatted("%.4g", double(value)) : "\xe2\x80\x93");
-        ImGui::PopFont();
         y += height;
     }
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the probes read over the last frames, and how fast each pane answers a change of light.
 
-#include "app/ui/curve_chart.h"
-#include "app/ui/curve_table.h"
+#include "app/ui/curves.h"
 #include "app/ui/draw.h"
 #include "app/ui/panels.h"
 #include "app/ui/theme.h"
@@ -71,24 +70,17 @@ void buttons(const PanelContext& panel) {
     probeTabs(panel);
     ImGui::SameLine(0.0f, 0.8f * em());
     ImGui::SetNextItemWidth(10.5f * em());
-    if (ImGui::BeginCombo("##quantity", nameOf(infoOf(state.curve)).c_str())) {
-        for (const QuantityInfo& quantity : quantities())
-            if (ImGui::Selectable(nameOf(quantity).c_str(), quantity.quantity == state.curve))
-                state.curve = quantity.quantity;
-        ImGui::EndCombo();
-    }
+    std::vector<ProbeQuantity> all;
+    for (const QuantityInfo& info : quantities())
+        all.push_back(info.quantity);
+    choose("##quantity", state.curve, all, [](ProbeQuantity q) { return nameOf(infoOf(q)); });
     tooltip("What is drawn: the mean over the probe in every frame. Key Z: the next.");
 
-    constexpr ActionButton choices[] = {
-        {"Copy", "Copies all curves as CSV, with settings, events and results. Key Ctrl C.",
-         Action::CopyCurves},
-        {"Save", "Saves all curves as a CSV file. Key Ctrl E.", Action::SaveCurves},
-        {"Clear", "Removes all probes. Key Shift J.", Action::ClearProbes}};
     const float width = 12.3f * em();
     ImGui::SameLine();
     ImGui::SetCursorPosX(
         std::max(ImGui::GetWindowContentRegionMax().x - width, ImGui::GetCursorPosX()));
-    actionRow(state, choices, width);
+    actionRow(state, {control('C'), control('E'), shift('J')}, width, ButtonStyle::Quiet);
 }
 
 // All values of one frame.
@@ -99,7 +91,7 @@ void readout(const PanelContext& panel, const std::vector<CurveLine>& lines, std
     std::string head = formatted("Frame %u", frame.frame);
     for (const ProbeMark& mark : frame.marks)
         head += ", " + mark.text;
-    ImGui::TextUnformatted(head.c_str());
+    write(head);
     for (const CurveLine& line : lines) {
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -13,42 +13,29 @@
 namespace afterglow {
 namespace {
 
-void act(const PanelContext& panel, const char* label, Action action, bool possible, bool lit,
-         float width, const char* help) {
-    ImGui::SameLine(0.0f, 0.3f * em());
-    ImGui::BeginDisabled(!possible);
-    if (litButton(label, lit, width * em()))
-        perform(panel.state, {action});
-    ImGui::EndDisabled();
-    tooltip(help);
-}
-
 // Where there is little room, what is impossible now is left out.
 void buttons(const PanelContext& panel, bool narrow) {
     ViewState& state = panel.state;
     const Transport& time = state.time;
     if (iconButton("pause", time.paused ? Icon::Play : Icon::Pause, time.paused))
-        perform(state, {Action::TogglePause});
-    tooltip(time.paused ? "Resume. Key P or space." : "Pause. Key P or space.");
+        press(state, plain('P'));
+    tooltip(tipOf(*actionOf(plain('P'))));
     ImGui::SameLine(0.0f, 0.3f * em());
     if (iconButton("step", Icon::Step, false))
-        perform(state, {Action::StepOnce});
-    tooltip("Renders one frame, then pauses. Key N.");
-    const bool recording = time.recording.has_value();
-    act(panel, "In", Action::MarkIn, true, recording, 2.3f,
-        "In point: records from the next frame on. Key I.");
-    const bool canEnd = recording && !time.recording->frames.empty();
-    const bool canReplay = time.recorded && !recording;
-    const bool canLeave = time.playing.has_value();
-    if (canEnd || !narrow)
-        act(panel, "Out", Action::MarkOut, canEnd, false, 2.9f,
-            "Out point: ends the record, and plays it again and again, bit for bit. Key O.");
-    if ((canReplay && !canLeave) || !narrow)
-        act(panel, "Replay", Action::Replay, canReplay, time.playing && time.playing->loops, 4.1f,
-            "Plays the last record again. Key Shift O.");
-    if (canLeave || !narrow)
-        act(panel, "Leave", Action::StopTake, canLeave, false, 3.8f,
-            "Leaves the take: lights and camera are yours again, from here on. Key Backspace.");
+        press(state, plain('N'));
+    tooltip(tipOf(*actionOf(plain('N'))));
+    for (const auto& [stroke, width] : {std::pair{plain('I'), 2.3f},
+                                        {plain('O'), 2.9f},
+                                        {shift('O'), 4.1f},
+                                        {KeyStroke{Key::Backspace}, 3.8f}}) {
+        const Action& action = *actionOf(stroke);
+        const bool isPossible = !action.isPossible || action.isPossible(state);
+        const bool isLess = stroke == shift('O') && time.playing;
+        if (narrow && (!isPossible || isLess))
+            continue;
+        ImGui::SameLine(0.0f, 0.3f * em());
+        actionButton(state, stroke, width * em());
+    }
 }
 
 /// Frames from left to right, one after the other.
@@ -205,12 +192,11 @@ void numbers(const PanelContext& panel, const UiRect& where) {
         draw.AddText({where.min.x, above}, packed(color::kText),
                      formatted("Frame %u", state.time.past.back().frame).c_str());
     ImGui::PopFont();
-    ImGui::PushFont(panel.fonts.small);
+    const WithFont letters(panel.fonts.small);
     const bool busy = state.time.recording.has_value();
     draw.AddText({where.min.x, std::round(middle + 0.12f * em())},
                  packed(busy ? color::kError : color::kDim),
                  clipped(stateLine(state), where.size.x).c_str());
-    ImGui::PopFont();
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -89,13 +90,11 @@ void fieldRow(Panes& panes, const Field& field) {
     const double value = fieldValue(settings, field);
     ImGui::SetNextItemWidth(-reset - 0.3f * em());
     if (!field.choices.empty()) {
-        const std::string_view now = field.choices[std::size_t(value)];
-        if (ImGui::BeginCombo("##choice", std::string(now).c_str())) {
-            for (std::size_t i = 0; i < field.choices.size(); ++i)
-                if (ImGui::Selectable(std::string(field.choices[i]).c_str(), double(i) == value))
-                    setField(panes, field, double(i));
-            ImGui::EndCombo();
-        }
+        auto choice = std::size_t(value);
+        const auto nameOf = [&](std::size_t i) { return field.choices[i]; };
+        if (choose("##choice", choice, std::views::iota(std::size_t(0), field.choices.size()),
+                   nameOf))
+            setField(panes, field, double(choice));
     } else {
         double moved = value;
         if (slider("##value", moved, {field.min, field.max, field.logarithmic},

@@ -31,27 +31,15 @@ constexpr std::size_t kHelpColumns = 3;
 constexpr std::size_t kTitleRows = 2; // that the title of a group is worth
 constexpr float kWidth = 63.0f;       // em, about what all of it takes
 
-using HelpGroup = std::span<const KeyHelp>;
-
-std::vector<HelpGroup> helpGroups(std::span<const KeyHelp> help) {
-    std::vector<HelpGroup> groups;
-    for (std::size_t begin = 0, i = 1; i <= help.size(); ++i)
-        if (i == help.size() || help[i].group != help[begin].group) {
-            groups.push_back(help.subspan(begin, i - begin));
-            begin = i;
-        }
-    return groups;
-}
-
 // The column of each group such that the longest is as short as can be. There are few groups: all
 // ways are tried, the first group always in the first column.
-std::vector<std::size_t> helpPlaces(const std::vector<HelpGroup>& groups) {
+std::vector<std::size_t> helpPlaces(const std::vector<KeyGroup>& groups) {
     std::vector<std::size_t> places(groups.size(), 0), best = places;
     std::size_t least = std::numeric_limits<std::size_t>::max();
     while (true) {
         std::array<std::size_t, kHelpColumns> rows{};
         for (std::size_t i = 0; i < groups.size(); ++i)
-            rows[places[i]] += groups[i].size() + kTitleRows;
+            rows[places[i]] += groups[i].rows.size() + kTitleRows;
         if (std::ranges::max(rows) < least) {
             least = std::ranges::max(rows);
             best = places;
@@ -64,14 +52,10 @@ std::vector<std::size_t> helpPlaces(const std::vector<HelpGroup>& groups) {
     }
 }
 
-void helpGroup(const PanelContext& panel, HelpGroup rows, float caps) {
+void helpGroup(const PanelContext& panel, const KeyGroup& group, float caps) {
     ImGui::Dummy({0.0f, 0.3f * em()});
-    ImGui::PushFont(panel.fonts.strong);
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-    ImGui::TextUnformatted(std::string(rows.front().group).c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
-    for (const KeyHelp& row : rows) {
+    write(group.title, color::kAccent, panel.fonts.strong);
+    for (const KeyRow& row : group.rows) {
         const float begin = ImGui::GetCursorPosX();
         keyCap(readable(row.keys));
         ImGui::SameLine();
@@ -90,24 +74,20 @@ void overlayHelp(const PanelContext& panel) {
                                                   packed(color::rgb(0, 0.6f)));
     const float panelEnd = inUnits(panel, panel.frame.layout.panel).end().x;
     ImGui::SetNextWindowPos(middleBeside(panelEnd, kWidth * em()), ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowBgAlpha(0.98f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.7f * em());
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {1.6f * em(), 1.1f * em()});
-    ImGui::Begin("keys", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav);
-    ImGui::PushFont(panel.fonts.large);
-    ImGui::TextUnformatted("Keys");
-    ImGui::PopFont();
-    ImGui::PushFont(panel.fonts.small);
-    const auto help = keyHelp();
-    const auto groups = helpGroups(help);
+    const Overlay window("keys", {.alpha = 0.98f,
+                                  .padding = {1.6f, 1.1f},
+                                  .rounding = 0.7f,
+                                  .hasBorder = true,
+                                  .more = ImGuiWindowFlags_AlwaysAutoResize |
+                                          ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav});
+    write("Keys", color::kText, panel.fonts.large);
+    const WithFont letters(panel.fonts.small);
+    const auto& groups = keyGroups();
     const auto places = helpPlaces(groups);
     float caps = 0.0f;
-    for (const KeyHelp& row : help)
-        caps = std::max(caps, ImGui::CalcTextSize(readable(row.keys).c_str()).x + 0.8f * em());
+    for (const KeyGroup& group : groups)
+        for (const KeyRow& row : group.rows)
+            caps = std::max(caps, ImGui::CalcTextSize(readable(row.keys).c_str()).x + 0.8f * em());
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {0.9f * em(), 0.0f});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.6f * em(), 0.18f * em()});
     if (ImGui::BeginTable("columns", int(kHelpColumns),
@@ -121,9 +101,6 @@ void overlayHelp(const PanelContext& panel) {
         ImGui::EndTable();
     }
     ImGui::PopStyleVar(2);
-    ImGui::PopFont();
-    ImGui::End();
-    ImGui::PopStyleVar(3);
 }
 
 } // namespace afterglow

@@ -44,14 +44,13 @@ void results(const PanelContext& panel) {
         drawLetter(*ImGui::GetWindowDrawList(), {at.x, at.y - 0.15f * em()}, pane, paneColor(pane));
         ImGui::Dummy({letterSize(), em()});
         ImGui::SameLine(0.0f, 0.35f * em());
-        ImGui::TextUnformatted(formatted("%.4f", *rmse).c_str());
+        write(formatted("%.4f", *rmse));
     }
-    ImGui::PushFont(panel.fonts.small);
     const std::string next = "Shift U: the next view of the truth";
     dimText(state.shown.isTruth()
                 ? "shown: " + std::string(images()[state.shown.index].name) + "; " + next
-                : next);
-    ImGui::PopFont();
+                : next,
+            panel.fonts.small);
 }
 
 // Above the pictures if there is room, else below the labels of the panes.
@@ -81,28 +80,20 @@ void overlayOracle(const PanelContext& panel) {
                             ImGuiCond_Always, {0.5f, 0.0f});
     const bool isDone = panel.bench.oracle().isDone();
     ImGui::SetNextWindowSize({isDone ? 0.0f : width, 0.0f});
-    ImGui::SetNextWindowBgAlpha(0.88f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em());
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em(), 0.6f * em()});
-    ImGui::Begin("oracle", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs);
+    const Overlay window(
+        "oracle", {.alpha = 0.88f, .padding = {0.9f, 0.6f}, .rounding = 0.6f, .more = kUntouched});
     const OracleView& oracle = panel.bench.oracle();
     const std::string frame = frozenFrame(panel.state);
     if (isDone) {
-        ImGui::TextUnformatted(frame.c_str());
+        write(frame);
         results(panel);
     } else {
         const int samples = oracle.samples();
         const double progress = oracle.progress();
-        ImGui::TextUnformatted((frame + formatted(": reference %d of %d samples",
-                                                  int(std::floor(progress * samples)), samples))
-                                   .c_str());
+        write((frame + formatted(": reference %d of %d samples",
+                                 int(std::floor(progress * samples)), samples)));
         progressBar(progress);
     }
-    ImGui::End();
-    ImGui::PopStyleVar(2);
 }
 
 } // namespace afterglow

@@ -56,9 +56,7 @@ void presetList(const PanelContext& panel, std::span<const PresetStore::Entry> e
             any = true;
         }
     if (!any) {
-        ImGui::PushFont(panel.fonts.small);
-        dimWrapped("None yet: save a pane below, or paste one.");
-        ImGui::PopFont();
+        dimWrapped("None yet: save a pane below, or paste one.", panel.fonts.small);
     }
     ImGui::EndChild();
 }
@@ -79,25 +77,22 @@ void differences(const PanelContext& panel, const Preset& preset, float height) 
         ImGui::TableSetupColumn("", 0, 2.0f);
         ImGui::TableSetupColumn("", 0, 1.0f);
         ImGui::TableSetupColumn("", 0, 1.0f);
-        ImGui::PushFont(panel.fonts.small);
         ImGui::TableNextColumn();
-        dimText(std::to_string(rows.size()) + (rows.size() == 1 ? " difference" : " differences"));
+        dimText(std::to_string(rows.size()) + (rows.size() == 1 ? " difference" : " differences"),
+                panel.fonts.small);
         ImGui::TableNextColumn();
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kPanes[panes.active]);
-        ImGui::TextUnformatted((pane + " now").c_str());
-        ImGui::PopStyleColor();
+        write(pane + " now", color::kPanes[panes.active], panel.fonts.small);
         ImGui::TableNextColumn();
-        dimText("preset");
-        ImGui::PopFont();
+        dimText("preset", panel.fonts.small);
         for (const SettingDifference& row : rows) {
             ImGui::TableNextColumn();
             dimText(row.label);
             if (row.key != "filter")
                 tooltip(std::string(fieldByKey(row.key).meaning));
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(row.valueA.c_str());
+            write(row.valueA);
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(row.valueB.c_str());
+            write(row.valueB);
         }
         ImGui::EndTable();
     }
@@ -110,7 +105,7 @@ void removeButton(const PanelContext& panel, const std::string& name, float widt
     tooltip("Removes the file of this preset");
     if (!ImGui::BeginPopup("remove", ImGuiWindowFlags_NoMove))
         return;
-    ImGui::TextUnformatted(("Remove the preset " + name + "?").c_str());
+    write("Remove the preset " + name + "?");
     if (litButton("Remove it", true, 6.5f * em(), color::kError)) {
         panel.state.wanted.removePreset = name;
         ImGui::CloseCurrentPopup();
@@ -125,7 +120,7 @@ void useButtons(const PanelContext& panel, const PresetStore::Entry& entry) {
     ViewState& state = panel.state;
     const float gap = 0.3f * em();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Use in pane");
+    write("Use in pane");
     for (std::size_t pane = 0; pane < state.panes.count; ++pane) {
         ImGui::SameLine(0.0f, pane == 0 ? 0.7f * em() : gap);
         if (litButton(letter(pane).c_str(), pane == state.panes.active, 2.6f * em(),
@@ -145,26 +140,20 @@ void useButtons(const PanelContext& panel, const PresetStore::Entry& entry) {
 
 void chosenPreset(const PanelContext& panel, const PresetStore::Entry& entry) {
     ImGui::BeginChild("chosen", {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
-    ImGui::PushFont(panel.fonts.strong);
-    ImGui::TextUnformatted(shownTitle(entry).c_str());
-    ImGui::PopFont();
+    write(shownTitle(entry), color::kText, panel.fonts.strong);
     ImGui::PushTextWrapPos(0.0f);
     if (!entry.error.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, color::kError);
-        ImGui::TextUnformatted(entry.error.c_str());
-        ImGui::PopStyleColor();
+        write(entry.error, color::kError);
         ImGui::PopTextWrapPos();
         removeButton(panel, entry.preset.name, 5.5f * em());
         return ImGui::EndChild();
     }
     if (!entry.preset.description.empty())
-        ImGui::TextUnformatted(entry.preset.description.c_str());
-    ImGui::PushFont(panel.fonts.small);
+        write(entry.preset.description);
     if (!entry.preset.source.empty())
-        dimText("Values from: " + entry.preset.source);
+        dimText("Values from: " + entry.preset.source, panel.fonts.small);
     if (entry.builtIn)
-        dimText("On the command line: --filter " + entry.preset.name);
-    ImGui::PopFont();
+        dimText("On the command line: --filter " + entry.preset.name, panel.fonts.small);
     ImGui::PopTextWrapPos();
     ImGui::Dummy({0.0f, 0.2f * em()});
     const float line = ImGui::GetFrameHeightWithSpacing();
@@ -180,7 +169,7 @@ void saveRow(const PanelContext& panel) {
     static std::string name; // typed and not saved yet
     const float gap = 0.4f * em(), button = 5.0f * em();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(("Save pane " + letter(state.panes.active) + " as").c_str());
+    write("Save pane " + letter(state.panes.active) + " as");
     ImGui::SameLine(0.0f, 0.7f * em());
     ImGui::SetNextItemWidth(13.0f * em());
     bool save =
@@ -203,12 +192,8 @@ void saveRow(const PanelContext& panel) {
     else if (save && !name.empty())
         notify(state, "'" + name + "' cannot name a preset", true);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - 2.0f * button - gap);
-    const std::string pane = "pane " + letter(state.panes.active);
-    const std::string copy = "Ctrl Shift C. Copies " + pane + " as the text of a preset.";
-    const std::string paste = "Ctrl Shift V. Sets " + pane + " to the preset on the clipboard.";
-    const ActionButton buttons[] = {{"Copy", copy.c_str(), Action::CopyPreset},
-                                    {"Paste", paste.c_str(), Action::PastePreset}};
-    actionRow(state, buttons, 2.0f * button + gap);
+    actionRow(state, {{keyOf('C'), true, true}, {keyOf('V'), true, true}}, 2.0f * button + gap,
+              ButtonStyle::Quiet);
 }
 
 } // namespace
@@ -223,17 +208,10 @@ void overlayPresets(const PanelContext& panel) {
     const float panelEnd = inUnits(panel, panel.frame.layout.panel).end().x;
     ImGui::SetNextWindowPos(middleBeside(panelEnd, size.x), ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize(size);
-    ImGui::SetNextWindowBgAlpha(0.98f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.7f * em());
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {1.4f * em(), 1.1f * em()});
+    const Overlay window(
+        "presets", {.alpha = 0.98f, .padding = {1.4f, 1.1f}, .rounding = 0.7f, .hasBorder = true});
     ImGui::PushStyleVar(ImGuiStyleVar_ChildRounding, 0.0f);
-    ImGui::Begin("presets", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings);
-    ImGui::PushFont(panel.fonts.large);
-    ImGui::TextUnformatted("Presets");
-    ImGui::PopFont();
+    write("Presets", color::kText, panel.fonts.large);
     const float close = 4.6f * em();
     ImGui::SameLine(ImGui::GetContentRegionMax().x - close);
     if (litButton("Close", false, close))
@@ -257,8 +235,7 @@ void overlayPresets(const PanelContext& panel) {
     ImGui::Separator();
     ImGui::Dummy({0.0f, 0.1f * em()});
     saveRow(panel);
-    ImGui::End();
-    ImGui::PopStyleVar(4);
+    ImGui::PopStyleVar();
 }
 
 } // namespace afterglow

@@ -42,18 +42,18 @@ void buttons(ViewState& state, std::size_t count) {
     const std::size_t stop = *state.tourStop;
     const float gap = 0.4f * em(), width = 5.6f * em();
     if (litButton("Leave", false, 4.4f * em()))
-        perform(state, {Action::ToggleTour});
+        press(state, {Key::F6});
     tooltip("Esc or F6. All stays as the tour has set it.");
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - 2.0f * width - gap);
     ImGui::BeginDisabled(stop == 0);
     if (litButton("Previous", false, width))
-        perform(state, {Action::PreviousStop});
+        press(state, {Key::PageUp});
     ImGui::EndDisabled();
     tooltip("Page up");
     ImGui::SameLine(0.0f, gap);
     const bool last = stop + 1 >= count;
     if (litButton(last ? "Done###next" : "Next###next", true, width))
-        perform(state, {Action::NextStop});
+        press(state, {Key::PageDown});
     tooltip(last ? "Page down. The tour ends here." : "Page down");
 }
 
@@ -109,29 +109,20 @@ void overlayTour(const PanelContext& panel) {
     const ImVec2 size = cardSize(panel, stop, std::min(kWidth * em(), room));
     ImGui::SetNextWindowPos(cardPlace(panel, view, size));
     ImGui::SetNextWindowSize({size.x, 0.0f});
-    ImGui::SetNextWindowBgAlpha(0.94f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.6f * em());
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kPaddingX * em(), kPaddingY * em()});
-    ImGui::Begin("tour", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                     ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::PushFont(panel.fonts.small);
-    dimText(std::to_string(*state.tourStop + 1) + " of " + std::to_string(stops.size()));
-    ImGui::PopFont();
+    const Overlay window(
+        "tour", {.alpha = 0.94f,
+                 .padding = {kPaddingX, kPaddingY},
+                 .rounding = 0.6f,
+                 .more = ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize});
+    dimText(std::to_string(*state.tourStop + 1) + " of " + std::to_string(stops.size()),
+            panel.fonts.small);
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::PushFont(panel.fonts.strong);
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-    ImGui::TextUnformatted(stop.title.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
-    ImGui::TextUnformatted(stop.text.c_str());
+    write(stop.title, color::kAccent, panel.fonts.strong);
+    write(stop.text);
     ImGui::PopTextWrapPos();
     ImGui::Dummy({0.0f, 0.1f * em()});
     dots(state, stops.size(), ImGui::GetContentRegionAvail().x);
     buttons(state, stops.size());
-    ImGui::End();
-    ImGui::PopStyleVar(2);
 }
 
 } // namespace afterglow

@@ -18,10 +18,6 @@ namespace {
 
 constexpr float kStatusHeight = 1.9f; // em
 
-constexpr ImGuiWindowFlags kOverlay =
-    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs;
-
 bool hasRoom(const PanelContext& panel) {
     const UiRect view = inUnits(panel, panel.frame.layout.view);
     return view.size.x > 18.0f * em() && view.size.y > 8.0f * em();
@@ -106,7 +102,7 @@ void scaleBar(const ImageDisplay& display) {
         if (i)
             ImGui::SameLine();
         ImGui::SetCursorPosX(begin + 0.5f * float(i) * (size.x - width));
-        ImGui::TextUnformatted(texts[i].c_str());
+        write(texts[i]);
     }
 }
 
@@ -139,32 +135,25 @@ void overlayStatus(const PanelContext& panel) {
     const float height = kStatusHeight * em();
     ImGui::SetNextWindowPos({view.min.x, view.min.y + view.size.y - height});
     ImGui::SetNextWindowSize({view.size.x, height});
-    ImGui::SetNextWindowBgAlpha(0.78f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em(), 0.45f * em()});
-    ImGui::PushFont(panel.fonts.small);
-    ImGui::Begin("status", nullptr, kOverlay);
+    const Overlay window(
+        "status", {.alpha = 0.78f, .padding = {0.9f, 0.45f}, .rounding = 0.0f, .more = kUntouched});
+    const WithFont letters(panel.fonts.small);
     const char* const hint = "F1 keys";
     const float room = view.size.x - ImGui::CalcTextSize(hint).x - 2.3f * em();
     const std::string flag = statusFlag(panel.state);
     if (!flag.empty()) {
-        ImGui::PushStyleColor(ImGuiCol_Text,
-                              panel.state.time.recording ? color::kRecording : color::kAccent);
-        ImGui::TextUnformatted(flag.c_str());
-        ImGui::PopStyleColor();
+        write(flag, panel.state.time.recording ? color::kRecording : color::kAccent);
         ImGui::SameLine(0.0f, 1.4f * em());
     }
     const auto parts = statusParts(panel);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(parts[i].c_str()).x > room)
             break; // whole parts or none
-        i == 0 ? ImGui::TextUnformatted(parts[i].c_str()) : dimText(parts[i]);
+        write(parts[i], i == 0 ? color::kText : color::kDim);
         ImGui::SameLine(0.0f, 1.4f * em());
     }
     ImGui::SetCursorPosX(view.size.x - ImGui::CalcTextSize(hint).x - 0.9f * em());
     dimText(hint);
-    ImGui::End();
-    ImGui::PopFont();
-    ImGui::PopStyleVar();
 }
 
 void overlayLegend(const PanelContext& panel) {
@@ -177,23 +166,17 @@ void overlayLegend(const PanelContext& panel) {
     ImGui::SetNextWindowPos(
         {view.min.x + view.size.x - em(), view.min.y + view.size.y - kStatusHeight * em() - em()},
         ImGuiCond_Always, {1.0f, 1.0f});
-    ImGui::SetNextWindowBgAlpha(0.86f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.45f * em());
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * em(), 0.6f * em()});
-    ImGui::Begin("legend", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::PushFont(panel.fonts.strong);
-    ImGui::TextUnformatted(legend.name.c_str());
-    ImGui::PopFont();
-    ImGui::PushFont(panel.fonts.small);
+    const Overlay window("legend", {.alpha = 0.86f,
+                                    .padding = {0.8f, 0.6f},
+                                    .more = kUntouched | ImGuiWindowFlags_AlwaysAutoResize});
+    write(legend.name, color::kText, panel.fonts.strong);
+    const WithFont letters(panel.fonts.small);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + 17.0f * em());
     if (!legend.meaning.empty())
         dimText(legend.meaning);
     if (legend.note.empty() && legend.display) // the pane's label has the note
         legendBody(*legend.display);
     ImGui::PopTextWrapPos();
-    ImGui::PopFont();
-    ImGui::End();
-    ImGui::PopStyleVar(2);
 }
 
 void overlayNotice(const PanelContext& panel) {
@@ -208,22 +191,18 @@ void overlayNotice(const PanelContext& panel) {
         {view.min.x + em(), view.min.y + view.size.y - kStatusHeight * em() - em()},
         ImGuiCond_Always, {0.0f, 1.0f});
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::max(fade, 0.02f));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.45f * em());
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * em(), 0.6f * em()});
-    ImGui::SetNextWindowBgAlpha(0.86f * fade);
-    ImGui::Begin("notice", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::PushTextWrapPos(std::min(0.55f * view.size.x, 42.0f * em()));
-    ImGui::PushStyleColor(ImGuiCol_Text, notice.isError ? color::kError : color::kText);
-    if (notice.secondsLeft > 0.0)
-        ImGui::TextUnformatted(notice.text.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kError);
-    for (const std::string& error : errors)
-        ImGui::TextUnformatted(error.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-    ImGui::End();
-    ImGui::PopStyleVar(3);
+    {
+        const Overlay window("notice", {.alpha = 0.86f * fade,
+                                        .padding = {0.8f, 0.6f},
+                                        .more = kUntouched | ImGuiWindowFlags_AlwaysAutoResize});
+        ImGui::PushTextWrapPos(std::min(0.55f * view.size.x, 42.0f * em()));
+        if (notice.secondsLeft > 0.0)
+            write(notice.text, notice.isError ? color::kError : color::kText);
+        for (const std::string& error : errors)
+            write(error, color::kError);
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::PopStyleVar();
 }
 
 } // namespace afterglow

@@ -5,6 +5,8 @@
 #include "app/ui/panels.h"
 #include "app/ui/widgets.h"
 
+#include <ranges>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -15,14 +17,11 @@ void chooseSceneCamera(const PanelContext& panel) {
     ViewState& state = panel.state;
     if (state.cameraNames.size() < 2)
         return;
-    rowLabel("Camera");
-    if (ImGui::BeginCombo("##camera", state.cameraNames[state.cameraIndex].c_str())) {
-        for (std::size_t i = 0; i < state.cameraNames.size(); ++i)
-            if (ImGui::Selectable(state.cameraNames[i].c_str(), i == state.cameraIndex))
-                chooseCamera(state, panel.bench.scene(), i);
-        ImGui::EndCombo();
-    }
-    tooltip("The scene's own cameras");
+    std::size_t index = state.cameraIndex;
+    const auto nameOf = [&](std::size_t i) { return state.cameraNames[i]; };
+    if (chooseRow("Camera", index, std::views::iota(std::size_t(0), state.cameraNames.size()),
+                  nameOf, "The scene's own cameras"))
+        chooseCamera(state, panel.bench.scene(), index);
 }
 
 void drawCross(ImU32 tint) {
@@ -54,9 +53,7 @@ void places(ViewState& state) {
     }
     if (forgotten < remembered.size())
         remembered.erase(remembered.begin() + std::ptrdiff_t(forgotten));
-    if (litButton("Remember this place", false, ImGui::GetContentRegionAvail().x))
-        addBookmark(state);
-    tooltip("Ctrl B. Up to nine in each scene. Camera cuts and the camera path go through them.");
+    actionButton(state, control('B'), ImGui::GetContentRegionAvail().x);
 }
 
 } // namespace
@@ -72,18 +69,13 @@ void panelCamera(const PanelContext& panel) {
     if (slider("##speed", speed, {standard / 50.0, standard * 50.0, true}, "%.3g m/s"))
         state.speed = float(speed);
     tooltip("The wheel changes it; Shift is four times as fast. W A S D, Q and E fly.");
-    rowLabel("Path");
-    if (switchButton("path", state.onPath))
-        perform(state, {Action::ToggleCameraPath});
-    tooltip("Shift C. Three seconds from one remembered place to the next; with fewer than two it "
-            "sways.");
+    if (switchRow("Path", state.onPath, tipOf(*actionOf(shift('C')))))
+        press(state, shift('C'));
     const glm::vec3 eye = state.camera.position;
     rowLabel("Position");
     dimText(fmt::format("{:.2f}  {:.2f}  {:.2f} m", eye.x, eye.y, eye.z));
     places(state);
-    if (litButton("Back to the scene's camera", false, ImGui::GetContentRegionAvail().x))
-        goHome(state);
-    tooltip("R or Home");
+    actionButton(state, plain('R'), ImGui::GetContentRegionAvail().x);
 }
 
 } // namespace afterglow

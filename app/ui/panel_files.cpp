@@ -70,18 +70,12 @@ void openRows(const PanelContext& panel) {
 }
 
 void saveButtons(ViewState& state) {
-    constexpr ActionButton pictures[] = {
-        {"Save picture", "F12 or Ctrl S. What the panes show, pixel for pixel, as PNG.",
-         Action::SavePicture},
-        {"Save window", "Shift F12. The whole window as PNG.", Action::SaveWindow},
-        {"All images", "Ctrl F12. Every image of this frame of the active pane, as numbers.",
-         Action::SaveImageFiles}};
-    actionRow(state, pictures, ImGui::GetContentRegionAvail().x);
+    const auto row = [&](std::initializer_list<KeyStroke> strokes) {
+        actionRow(state, strokes, ImGui::GetContentRegionAvail().x, ButtonStyle::Quiet);
+    };
+    row({{Key::F12}, {.key = Key::F12, .shift = true}, {.key = Key::F12, .control = true}});
     rowLabel("Curves");
-    constexpr ActionButton curves[] = {
-        {"Copy", "Ctrl C. What the probes read, as comma-separated values.", Action::CopyCurves},
-        {"Save##curves", "Ctrl E. The same as a file.", Action::SaveCurves}};
-    actionRow(state, curves, ImGui::GetContentRegionAvail().x);
+    row({control('C'), control('E')});
 }
 
 void recordRow(const PanelContext& panel) {
@@ -96,9 +90,8 @@ void recordRow(const PanelContext& panel) {
     }
     label += "###record";
     if (litButton(label.c_str(), records, ImGui::GetContentRegionAvail().x, color::kRecording))
-        perform(state, {Action::RecordFrames});
-    tooltip("F9. Writes every frame as PNG into a folder of its own, and a film of them where "
-            "there is ffmpeg.");
+        press(state, {Key::F9});
+    tooltip(tipOf(*actionOf({Key::F9})));
     rowLabel("Ends after");
     ImGui::DragInt("##frames", &state.recordFrames, 0.5f, 0, 100000,
                    state.recordFrames > 0 ? "%d frames" : "when it is told to",
@@ -106,9 +99,7 @@ void recordRow(const PanelContext& panel) {
     tooltip("Frames of the next recording. Drag, or ctrl-click to type; 0: until F9 is pressed "
             "again.");
     if (recorder.isEncoding()) {
-        ImGui::PushFont(panel.fonts.small);
-        dimText("ffmpeg makes a film of the frames ...");
-        ImGui::PopFont();
+        dimText("ffmpeg makes a film of the frames ...", panel.fonts.small);
     }
 }
 
@@ -124,10 +115,9 @@ void panelFiles(const PanelContext& panel) {
     openRows(panel);
     saveButtons(panel.state);
     recordRow(panel);
-    ImGui::PushFont(panel.fonts.small);
     dimWrapped("What is saved goes into the folder in which the program was started; a message "
-               "tells its name.");
-    ImGui::PopFont();
+               "tells its name.",
+               panel.fonts.small);
     ImGui::Dummy({0.0f, 0.5f * em()});
 }
 

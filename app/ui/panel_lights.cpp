@@ -55,12 +55,12 @@ void lightRow(ViewState& state, std::size_t slot) {
     tooltip("Radiance, in multiples of the scene's. Ctrl-click to type.");
     ImGui::SameLine(0.0f, gap);
     if (quietButton("\xc2\xbd", light.power == 0.5f, small))
-        perform(state, {Action::DimLight, int(slot)});
+        letHappen(state, {EventKind::Dim, slot});
     tooltip(keyHint(state, slot, "Shift ") + "To half its power, and back.");
     ImGui::SameLine(0.0f, gap);
     const bool tinted = light.tint != glm::vec3(1.0f);
     if (quietButton("##color", tinted, small))
-        perform(state, {Action::ColorLight, int(slot)});
+        letHappen(state, {EventKind::Recolor, slot});
     colorDot(equalLuminanceTint(state.lightColors[slot]) * state.lightColors[slot]);
     tooltip(keyHint(state, slot, "Ctrl ") +
             "To another color of the same luminance, and back: a change that a gradient of "
@@ -77,25 +77,6 @@ void lightRow(ViewState& state, std::size_t slot) {
             light = {.on = light.on};
         tooltip("As the scene has it");
     }
-}
-
-void eventButtons(ViewState& state) {
-    const float gap = 0.3f * em(), width = shareOf(3, gap);
-    if (quietButton("Camera cut", false, width))
-        perform(state, {Action::CutCamera});
-    tooltip("C. To the next of the remembered places, or to a view from the side.");
-    ImGui::SameLine(0.0f, gap);
-    if (quietButton("Camera path", state.onPath, width))
-        perform(state, {Action::ToggleCameraPath});
-    tooltip("Shift C. The camera goes through the remembered places and back, or sways where "
-            "there are none.");
-    ImGui::SameLine(0.0f, gap);
-    ImGui::BeginDisabled(!state.isAnimated);
-    if (quietButton("Movement", state.time.animate && state.isAnimated, width))
-        perform(state, {Action::ToggleAnimation});
-    ImGui::EndDisabled();
-    tooltip(state.isAnimated ? "M. Plays the scene's own animation."
-                             : "Nothing moves in this scene.");
 }
 
 void repeatRow(ViewState& state) {
@@ -138,7 +119,8 @@ void panelLights(const PanelContext& panel) {
     }
     if (state.lights.empty())
         dimText("This scene has none.");
-    eventButtons(state);
+    actionRow(state, {plain('C'), shift('C'), plain('M')}, ImGui::GetContentRegionAvail().x,
+              ButtonStyle::Quiet);
     ImGui::EndDisabled();
     repeatRow(state);
 }

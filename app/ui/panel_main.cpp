@@ -31,16 +31,8 @@ float scrollbar() {
 
 // What is open beside the pictures.
 void panelSwitches(ViewState& state) {
-    const ActionButton buttons[] = {{"Inspector", "F2. All that is known of one pixel.",
-                                     Action::ToggleInspector, state.showInspector},
-                                    {"Passes",
-                                     "F3. What each pass of a frame makes, and how long it takes.",
-                                     Action::TogglePasses, state.showPasses},
-                                    {"Curves", "F4. What the probes read, frame by frame.",
-                                     Action::ToggleCurves, state.showCurves},
-                                    {"Timeline", "F8. What happened in the last frames.",
-                                     Action::ToggleStrip, state.showStrip}};
-    actionRow(state, buttons, ImGui::GetContentRegionAvail().x - scrollbar());
+    actionRow(state, {{Key::F2}, {Key::F3}, {Key::F4}, {Key::F8}},
+              ImGui::GetContentRegionAvail().x - scrollbar(), ButtonStyle::Quiet);
 }
 
 void drawLayout(PaneLayout layout, ImVec2 center, ImU32 tint) {
@@ -75,16 +67,9 @@ void drawLayout(PaneLayout layout, ImVec2 center, ImU32 tint) {
     }
 }
 
-const char* helpOf(PaneLayout layout) {
-    switch (layout) {
-    case PaneLayout::Single: return "One pane";
-    case PaneLayout::Wipe: return "Wipe: two panes on one picture, with a divider to drag";
-    case PaneLayout::TwoUp: return "Two up: two panes beside each other";
-    case PaneLayout::FourUp: return "Four up: all panes";
-    case PaneLayout::Difference: return "Difference of two panes";
-    }
-    return "";
-}
+constexpr std::string_view kLayoutHelp[kPaneLayouts] = {
+    "One pane", "Wipe: two panes on one picture, with a divider to drag",
+    "Two up: two panes beside each other", "Four up: all panes", "Difference of two panes"};
 
 void layoutButtons(Panes& panes) {
     const float gap = 0.3f * em(), width = shareOf(int(kPaneLayouts), gap);
@@ -101,7 +86,7 @@ void layoutButtons(Panes& panes) {
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         drawLayout(layout, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)},
                    packed(panes.layout == layout ? color::kOnFill : color::kText));
-        tooltip(std::string(helpOf(layout)) +
+        tooltip(std::string(kLayoutHelp[i]) +
                 ".\nT and Shift T go through the layouts. All panes see the same noise.");
     }
 }
@@ -193,39 +178,29 @@ void filterButtons(ViewState& state) {
         tooltip(std::string(describe(filter)) + "\nF and Shift F go through the filters.");
     }
     ImGui::SameLine(0.0f, gap);
-    if (litButton("Presets", state.showPresets, width))
-        perform(state, {Action::TogglePresets});
-    tooltip("F7. Filters with the parameters of papers and of other programs, and your own.");
+    actionButton(state, {Key::F7}, width);
 }
 
 void gradientSamples(Panes& panes) {
     const Field& field = fieldByKey("gradientSamples");
-    rowLabel("Gradient samples");
     constexpr const char* kNames[] = {"Merged", "Extra"};
     const int now = int(fieldValue(settingsOf(panes, panes.active), field));
-    if (const auto chosen = segments("placement", kNames, now))
+    if (const auto chosen = segments("Gradient samples", kNames, now,
+                                     std::string(field.meaning) + "\nFor all panes."))
         setField(panes, field, double(*chosen));
-    tooltip(std::string(field.meaning) + "\nFor all panes.");
 }
 
 } // namespace
 
 void panelHeader(const PanelContext& panel) {
     ViewState& state = panel.state;
-    ImGui::PushFont(panel.fonts.large);
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-    ImGui::TextUnformatted("Afterglow");
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
+    write("Afterglow", color::kAccent, panel.fonts.large);
     ImGui::SameLine();
     const float help = 2.4f * em(), tour = 3.4f * em(), gap = 0.3f * em();
     ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - scrollbar() - help - gap - tour);
-    actionButton(state,
-                 {"Tour", "F6. What the filters do and where they fail, in a few stops.",
-                  Action::ToggleTour, state.tourStop.has_value()},
-                 tour);
+    actionButton(state, {Key::F6}, tour, ButtonStyle::Quiet);
     ImGui::SameLine(0.0f, gap);
-    actionButton(state, {"F1", "All keys", Action::ToggleHelp, state.showHelp}, help);
+    actionButton(state, {Key::F1}, help, ButtonStyle::Quiet);
 
     const SceneStats& stats = panel.bench.renderer().sceneStats();
     const std::size_t lights = state.lights.size();
@@ -260,9 +235,7 @@ void panelFilter(const PanelContext& panel) {
     pairRow(state.panes);
     ImGui::Dummy({0.0f, 0.05f * em()});
     filterButtons(state);
-    ImGui::PushFont(panel.fonts.small);
-    dimWrapped(describe(state.settings().filter));
-    ImGui::PopFont();
+    dimWrapped(describe(state.settings().filter), panel.fonts.small);
     gradientSamples(state.panes);
 }
 

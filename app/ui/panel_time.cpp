@@ -51,64 +51,23 @@ void stepButtons(ViewState& state) {
     const float gap = 0.3f * em(), width = shareOf(3, gap);
     const bool paused = state.time.paused || state.frozen || isFinished(state.time);
     if (litButton(paused ? "Resume###pause" : "Pause###pause", paused, width))
-        perform(state, {Action::TogglePause});
-    tooltip("P or space. While paused nothing is rendered: changes show with the next step.");
-    ImGui::SameLine(0.0f, gap);
-    if (litButton("Step frame", false, width))
-        perform(state, {Action::StepOnce});
-    tooltip("N. Renders one frame, then pauses.");
-    ImGui::SameLine(0.0f, gap);
-    if (litButton("Step pass", false, width))
-        perform(state, {Action::NextPass});
-    tooltip("The full stop key, and the comma back. Shows what the next pass of this frame made.");
+        press(state, plain('P'));
+    tooltip(tipOf(*actionOf(plain('P'))));
+    for (const char key : {'N', '.'}) {
+        ImGui::SameLine(0.0f, gap);
+        actionButton(state, plain(key), width);
+    }
 }
 
 void speedRows(Transport& t) {
-    rowLabel("Speed");
-    if (ImGui::BeginCombo("##speed", limitName(t.frameLimit).c_str())) {
-        for (const int limit : kFrameLimits)
-            if (ImGui::Selectable(limitName(limit).c_str(), limit == t.frameLimit))
-                t.frameLimit = limit;
-        ImGui::EndCombo();
-    }
-    tooltip("K slower, Shift K faster. Frames stay the same; fewer are shown a second.");
-    rowLabel("Time step");
+    chooseRow("Speed", t.frameLimit, kFrameLimits, limitName,
+              "K slower, Shift K faster. Frames stay the same; fewer are shown a second.");
     constexpr const char* kSteps[] = {"1/60 s", "Clock"};
-    if (const auto chosen = segments("step", kSteps, int(t.timeStep)))
+    if (const auto chosen = segments(
+            "Time step", kSteps, int(t.timeStep),
+            "How far scene time goes from frame to frame: always 1/60 s, so that a run can be "
+            "repeated exactly, or like the clock."))
         t.timeStep = TimeStep(*chosen);
-    tooltip("How far scene time goes from frame to frame: always 1/60 s, so that a run can be "
-            "repeated exactly, or like the clock.");
-}
-
-void takeButtons(ViewState& state) {
-    const Transport& t = state.time;
-    struct Row {
-        const char *name, *help;
-        bool can, lit;
-        Action action;
-        ImVec4 tint;
-    };
-    const Row rows[] = {
-        {"In", "I. From here on frames are recorded, and their lights and camera with them.", true,
-         t.recording.has_value(), Action::MarkIn, color::kRecording},
-        {"Out", "O. Ends the recording and loops it, each round bit for bit like the one before.",
-         t.recording && !t.recording->frames.empty(), false, Action::MarkOut, color::kLit},
-        {"Replay", "Shift O. Loops the last take again.", t.recorded && !t.recording,
-         t.playing && t.playing->loops, Action::Replay, color::kLit},
-        {"Leave", "Backspace. Leaves the take; live play goes on from what is seen.",
-         t.playing.has_value(), false, Action::StopTake, color::kLit},
-        {"Save", "Ctrl T. Writes the take as an experiment, which 'afterglow experiment' measures.",
-         t.recorded.has_value(), false, Action::SaveTake, color::kLit}};
-    const float gap = 0.3f * em(), width = shareOf(5, gap);
-    for (const Row& row : rows) {
-        if (&row != rows)
-            ImGui::SameLine(0.0f, gap);
-        ImGui::BeginDisabled(!row.can);
-        if (litButton(row.name, row.lit, width, row.tint))
-            perform(state, {row.action});
-        ImGui::EndDisabled();
-        tooltip(row.help);
-    }
 }
 
 } // namespace
@@ -125,20 +84,19 @@ void panelTime(const PanelContext& panel) {
     if (!section(panel.fonts, "Time", true, note, t.recording ? color::kRecording : color::kAccent))
         return;
     stepButtons(state);
-    takeButtons(state);
-    ImGui::PushFont(panel.fonts.small);
-    ImGui::PushStyleColor(ImGuiCol_Text, t.recording ? color::kRecording
-                                         : t.playing ? color::kAccent
-                                                     : color::kDim);
+    actionRow(state, {plain('I'), plain('O'), shift('O'), {Key::Backspace}, control('T')},
+              ImGui::GetContentRegionAvail().x);
     const std::string line = stateLine(state);
-    if (clippedText(line, ImGui::GetContentRegionAvail().x))
-        tooltip(line);
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
+    const float room = ImGui::GetContentRegionAvail().x;
+    {
+        const WithFont letters(panel.fonts.small);
+        const std::string shown = clipped(line, room);
+        write(shown, t.recording ? color::kRecording : t.playing ? color::kAccent : color::kDim);
+        if (shown != line)
+            tooltip(line);
+    }
     speedRows(state.time);
-    if (litButton("Forget all history", false, ImGui::GetContentRegionAvail().x))
-        perform(state, {Action::ResetHistory});
-    tooltip("H. The next frame starts from nothing, as after a cut. In all panes.");
+    actionButton(state, plain('H'), ImGui::GetContentRegionAvail().x);
 }
 
 } // namespace afterglow

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <imgui.h>
 
@@ -55,17 +54,14 @@ void chooseSignal(ViewState& state) {
     const auto signals = signalsOf(state);
     if (signals.size() < 2)
         return;
-    std::vector<std::string> names;
     std::vector<const char*> texts;
     for (const SignalInfo& signal : signals)
-        names.emplace_back(signal.name);
-    for (const std::string& name : names)
-        texts.push_back(name.c_str());
-    rowLabel("Signal");
-    if (const auto chosen = segments("signal", texts, int(shownSignal(state, signals.size()))))
+        texts.push_back(signal.name.data());
+    if (const auto chosen = segments(
+            "Signal", texts, int(shownSignal(state, signals.size())),
+            "Whose images are shown, and whose lambda, alpha and history the probes and the "
+            "inspector read. The picture is of all."))
         state.signal = std::size_t(*chosen);
-    tooltip("Whose images are shown, and whose lambda, alpha and history the probes and the "
-            "inspector read. The picture is of all.");
 }
 
 constexpr std::array<int, 3> kMaps = {gpu::kMapScalar, gpu::kMapLogarithm, gpu::kMapSigned};
@@ -74,9 +70,11 @@ void chooseMap(ImageDisplay& display) {
     const auto now = std::ranges::find(kMaps, display.map);
     if (now == kMaps.end())
         return;
-    rowLabel("Colors");
     constexpr const char* kNames[] = {"Linear", "Log", "Signed"};
-    const auto chosen = segments("map", kNames, int(now - kMaps.begin()));
+    const auto chosen =
+        segments("Colors", kNames, int(now - kMaps.begin()),
+                 "Equal steps of color for equal steps of the value, or for equal factors, or blue "
+                 "below zero and orange above.");
     if (chosen && kMaps[std::size_t(*chosen)] != display.map) {
         display.map = kMaps[std::size_t(*chosen)];
         display.high = std::max(std::abs(display.high), 1e-6f);
@@ -87,8 +85,6 @@ void chooseMap(ImageDisplay& display) {
         else
             display.low = std::max(display.low, 0.0f);
     }
-    tooltip("Equal steps of color for equal steps of the value, or for equal factors, or blue "
-            "below zero and orange above.");
 }
 
 void chooseRange(ViewState& state, ImageDisplay& display) {
@@ -116,28 +112,17 @@ void chooseRange(ViewState& state, ImageDisplay& display) {
     tooltip("Fits the range to this frame: all but the outermost hundredth");
 }
 
-void chooseSamples(ViewState& state) {
-    constexpr int kChoices[] = {64, 256, 1024, 4096, 16384};
-    rowLabel("Samples");
-    if (ImGui::BeginCombo("##samples",
-                          (std::to_string(state.oracleSamples) + " a pixel").c_str())) {
-        for (const int samples : kChoices)
-            if (ImGui::Selectable((std::to_string(samples) + " a pixel").c_str(),
-                                  samples == state.oracleSamples))
-                state.oracleSamples = samples;
-        ImGui::EndCombo();
-    }
-    tooltip("Of the reference. Four times as many halve its noise and take four times as long.");
-}
-
 // The truth: what is only known once the frame stands still.
 void oracle(ViewState& state) {
-    rowLabel("Freeze");
-    if (switchButton("freeze", state.frozen))
+    if (switchRow(
+            "Freeze", state.frozen,
+            "U. Holds this moment and converges its reference, with which the picture, lambda and "
+            "alpha can be compared. The histories stay as they are."))
         toggleFreeze(state);
-    tooltip("U. Holds this moment and converges its reference, with which the picture, lambda and "
-            "alpha can be compared. The histories stay as they are.");
-    chooseSamples(state);
+    chooseRow(
+        "Samples", state.oracleSamples, std::array{64, 256, 1024, 4096, 16384},
+        [](int samples) { return std::to_string(samples) + " a pixel"; },
+        "Of the reference. Four times as many halve its noise and take four times as long.");
     if (!state.frozen)
         return;
     const float gap = 0.3f * em(), width = shareOf(3, gap);
@@ -152,48 +137,37 @@ void oracle(ViewState& state) {
 }
 
 void chooseResolution(ViewState& state) {
-    rowLabel("Resolution");
-    const auto choices = resolutions();
-    const auto now = std::ranges::find(choices, state.resolution, &NamedResolution::resolution);
-    const std::string other = std::to_string(state.resolution.fixed.x) + " \xc3\x97 " +
-                              std::to_string(state.resolution.fixed.y);
-    if (ImGui::BeginCombo("##resolution", now == choices.end() ? other.c_str() : now->name.data(),
-                          ImGuiComboFlags_HeightLarge)) {
-        for (const auto& [name, resolution] : choices)
-            if (ImGui::Selectable(name.data(), resolution == state.resolution))
-                state.resolution = resolution;
-        ImGui::EndCombo();
-    }
-    tooltip("+ and -. Pixels that are rendered, in every pane. A fixed size is scaled into the "
-            "window with its proportions kept; software rendering starts with 640 \xc3\x97 360 so "
-            "that it stays quick. Another size clears the history.");
+    std::vector<Resolution> choices;
+    for (const NamedResolution& choice : resolutions())
+        choices.push_back(choice.resolution);
+    const auto nameOf = [](const Resolution& resolution) {
+        const auto known =
+            std::ranges::find(resolutions(), resolution, &NamedResolution::resolution);
+        return known != resolutions().end()
+                   ? std::string(known->name)
+                   : formatted("%d \xc3\x97 %d", resolution.fixed.x, resolution.fixed.y);
+    };
+    chooseRow(
+        "Resolution", state.resolution, choices, nameOf,
+        "+ and -. Pixels that are rendered, in every pane. A fixed size is scaled into the "
+        "window with its proportions kept; software rendering starts with 640 \xc3\x97 360 so "
+        "that it stays quick. Another size clears the history.");
 }
 
 std::string percent(float scale) {
-    char text[32];
-    if (scale <= 0.0f)
-        return "as the screen";
-    std::snprintf(text, sizeof text, "%.0f %%", 100.0 * double(scale));
-    return text;
+    return scale <= 0.0f ? "as the screen" : formatted("%.0f %%", 100.0 * double(scale));
 }
 
 void screenRows(Preferences& preferences) {
-    rowLabel("Smooth scaling");
-    if (switchButton("smooth", preferences.smoothScaling))
+    if (switchRow("Smooth scaling", preferences.smoothScaling,
+                  "Off: every rendered pixel is a sharp square"))
         preferences.smoothScaling = !preferences.smoothScaling;
-    tooltip("Off: every rendered pixel is a sharp square");
-    rowLabel("Wait for screen");
-    if (switchButton("vsync", preferences.vsync))
+    if (switchRow("Wait for screen", preferences.vsync,
+                  "F11. Off: frames are rendered as fast as they can be, and may tear."))
         preferences.vsync = !preferences.vsync;
-    tooltip("F11. Off: frames are rendered as fast as they can be, and may tear.");
-    rowLabel("Size of text");
-    if (ImGui::BeginCombo("##scale", percent(preferences.uiScale).c_str())) {
-        for (const float scale : {0.0f, 0.8f, 0.9f, 1.0f, 1.1f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f})
-            if (ImGui::Selectable(percent(scale).c_str(), scale == preferences.uiScale))
-                preferences.uiScale = scale;
-        ImGui::EndCombo();
-    }
-    tooltip("Of the whole interface. It is remembered.");
+    chooseRow("Size of text", preferences.uiScale,
+              std::array{0.0f, 0.8f, 0.9f, 1.0f, 1.1f, 1.25f, 1.5f, 1.75f, 2.0f, 2.5f}, percent,
+              "Of the whole interface. It is remembered.");
 }
 
 } // namespace

@@ -20,9 +20,7 @@ constexpr int kStratum = int(gpu::kStratumSize);
 
 void heading(const PanelContext& panel, const std::string& text) {
     ImGui::Dummy({0.0f, 0.15f * em()});
-    ImGui::PushFont(panel.fonts.strong);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopFont();
+    write(text, color::kText, panel.fonts.strong);
 }
 
 // Draws the pixels around one, enlarged, with the edges of strata.
@@ -62,16 +60,15 @@ void magnifier(const PanelContext& panel, const Inspection& seen) {
 void beside(const PanelContext& panel, const Inspection& seen) {
     ImGui::SameLine(0.0f, 0.9f * em());
     ImGui::BeginGroup();
-    ImGui::PushFont(panel.fonts.small);
+    const WithFont letters(panel.fonts.small);
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(titleOf(panel.state.panes.all.at(seen.state)).c_str());
+    write(titleOf(panel.state.panes.all.at(seen.state)));
     const std::string name = panel.bench.legend(seen.state).name;
     dimText(name.empty() ? "picture" : name);
     dimText(formatted("stratum %d, %d", seen.stratum.x, seen.stratum.y));
     ImGui::Dummy({0.0f, 0.3f * em()});
     dimText(panel.state.inspected ? "Held. Ctrl I lets it go." : "Ctrl I holds this pixel.");
     ImGui::PopTextWrapPos();
-    ImGui::PopFont();
     ImGui::EndGroup();
 }
 
@@ -98,7 +95,7 @@ void story(const PanelContext& panel, const std::vector<std::string>& sentences)
     const float pad = 0.6f * em(), width = ImGui::GetContentRegionAvail().x;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    ImGui::PushFont(panel.fonts.small);
+    const WithFont letters(panel.fonts.small);
     const float between = 0.35f * em();
     std::vector<std::string> texts;
     float height = 2.0f * pad - between;
@@ -112,7 +109,6 @@ void story(const PanelContext& panel, const std::vector<std::string>& sentences)
         draw.AddText({at.x + pad, std::round(y)}, packed(color::kText), text.c_str());
         y += ImGui::CalcTextSize(text.c_str()).y + between;
     }
-    ImGui::PopFont();
     ImGui::Dummy({width, height});
 }
 
@@ -134,12 +130,11 @@ void valueRow(const InspectedValue& value) {
 void groups(const PanelContext& panel, const std::vector<InspectedGroup>& all) {
     for (const InspectedGroup& group : all) {
         heading(panel, group.title);
-        ImGui::PushFont(panel.fonts.small);
+        const WithFont letters(panel.fonts.small);
         ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.1f * em()});
         for (const InspectedValue& value : group.values)
             valueRow(value);
         ImGui::PopStyleVar();
-        ImGui::PopFont();
     }
 }
 
@@ -173,22 +168,20 @@ void counts(const PanelContext& panel, const char* title, const Counts& of, Name
     if (all == 0)
         return;
     heading(panel, title);
-    ImGui::PushFont(panel.fonts.small);
+    const WithFont letters(panel.fonts.small);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
     for (std::size_t code = 0; code < of.size(); ++code)
         if (of[code] > 0)
             countRow(nameOf(code), of[code], all);
     ImGui::PopStyleVar();
-    ImGui::PopFont();
 }
 
 void title(const PanelContext& panel, const std::optional<Inspection>& seen) {
     ImGui::PushFont(panel.fonts.strong);
     if (!seen) {
-        ImGui::TextUnformatted("Inspector");
+        write("Inspector");
     } else {
-        ImGui::TextUnformatted(
-            formatted("Pixel %d, %d of pane", seen->pixel.x, seen->pixel.y).c_str());
+        write(formatted("Pixel %d, %d of pane", seen->pixel.x, seen->pixel.y));
         ImGui::SameLine(0.0f, 0.4f * em());
         const ImVec2 at = ImGui::GetCursorScreenPos();
         drawLetter(*ImGui::GetWindowDrawList(), {at.x, at.y - 0.15f * em()}, seen->state,

@@ -186,7 +186,7 @@ void list(const PanelContext& panel) {
     double longest = 0.0;
     for (const PassTimings::Row& row : timings.passes())
         longest = std::max(longest, row.milliseconds);
-    ImGui::PushFont(panel.fonts.small);
+    const WithFont letters(panel.fonts.small);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.2f * em()});
     const auto rows = rowsOf(timings, panel.bench.passes().made());
     if (rows.empty())
@@ -196,7 +196,6 @@ void list(const PanelContext& panel) {
         imageButtons(panel, row, follow);
     }
     ImGui::PopStyleVar();
-    ImGui::PopFont();
 }
 
 std::string whatIsTimed(bool software) {
@@ -209,10 +208,8 @@ std::string whatIsTimed(bool software) {
 
 void totals(const PanelContext& panel) {
     const PassTimings& timings = panel.bench.timings();
-    ImGui::PushFont(panel.fonts.large);
-    ImGui::TextUnformatted(timeText(timings).c_str());
-    ImGui::PopFont();
-    ImGui::PushFont(panel.fonts.small);
+    write(timeText(timings), color::kText, panel.fonts.large);
+    const WithFont letters(panel.fonts.small);
     const bool software = panel.bench.gl().softwareRasterizer;
     const std::string meaning = whatIsTimed(software);
     tooltip(meaning);
@@ -229,7 +226,6 @@ void totals(const PanelContext& panel) {
     tooltip(meaning);
     graph(timings);
     dimText("A click shows what a pass made. Step a pass: . and ,");
-    ImGui::PopFont();
 }
 
 } // namespace

@@ -8,7 +8,6 @@
 #include "app/workbench/workbench.h"
 
 #include <span>
-#include <string>
 
 struct GLFWwindow;
 struct ImGuiContext;

@@ -5,14 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace afterglow {
 namespace {
-
-void text(std::string_view words) {
-    ImGui::TextUnformatted(words.data(), words.data() + words.size());
-}
 
 // An arrow that goes back in a circle.
 void drawResetIcon(ImVec2 center, float radius, ImU32 tint) {
@@ -120,11 +115,7 @@ bool section(const Fonts& fonts, const char* title, bool openAtFirst, std::strin
 }
 
 void groupTitle(const Fonts& fonts, const char* title) {
-    ImGui::PushFont(fonts.small);
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kAccent);
-    ImGui::TextUnformatted(title);
-    ImGui::PopStyleColor();
-    ImGui::PopFont();
+    write(title, color::kAccent, fonts.small);
 }
 
 bool switchButton(const char* id, bool on) {
@@ -157,28 +148,37 @@ bool quietButton(const char* label, bool lit, float width) {
                          lit ? color::kOnFill : color::kText);
 }
 
-void actionButton(ViewState& state, const ActionButton& button, float width) {
-    ImGui::BeginDisabled(!button.can);
-    if (quietButton(button.label, button.lit, width))
-        perform(state, {button.action});
+void actionButton(ViewState& state, KeyStroke stroke, float width, ButtonStyle style) {
+    const Action& action = *actionOf(stroke);
+    const bool lit = action.isLit && action.isLit(state);
+    ImGui::PushID(&action);
+    ImGui::BeginDisabled(action.isPossible && !action.isPossible(state));
+    if (style == ButtonStyle::Quiet
+            ? quietButton(action.label, lit, width)
+            : litButton(action.label, lit, width, action.records ? color::kRecording : color::kLit))
+        action.perform(state);
     ImGui::EndDisabled();
-    tooltip(button.help);
+    ImGui::PopID();
+    tooltip(tipOf(action));
 }
 
-void actionRow(ViewState& state, std::span<const ActionButton> buttons, float width) {
-    const float gap = 0.3f * em(), count = float(buttons.size());
-    for (const ActionButton& button : buttons) {
-        if (&button != buttons.data())
+void actionRow(ViewState& state, std::initializer_list<KeyStroke> strokes, float width,
+               ButtonStyle style) {
+    const float gap = 0.3f * em(), count = float(strokes.size());
+    for (const KeyStroke& stroke : strokes) {
+        if (&stroke != strokes.begin())
             ImGui::SameLine(0.0f, gap);
-        actionButton(state, button, (width - gap * (count - 1.0f)) / count);
+        actionButton(state, stroke, (width - gap * (count - 1.0f)) / count, style);
     }
 }
 
-std::optional<int> segments(const char* id, std::span<const char* const> names, int lit) {
+std::optional<int> segments(const char* label, std::span<const char* const> names, int lit,
+                            const std::string& tip) {
+    rowLabel(label);
     const float gap = 0.25f * em();
     const float width = shareOf(int(names.size()), gap);
     std::optional<int> pressed;
-    ImGui::PushID(id);
+    ImGui::PushID(label);
     ImGui::BeginGroup();
     for (int i = 0; i < int(names.size()); ++i) {
         if (i > 0)
@@ -188,7 +188,15 @@ std::optional<int> segments(const char* id, std::span<const char* const> names, 
     }
     ImGui::EndGroup();
     ImGui::PopID();
+    tooltip(tip);
     return pressed;
+}
+
+bool switchRow(const char* label, bool on, const std::string& tip) {
+    rowLabel(label);
+    const bool turned = switchButton(label, on);
+    tooltip(tip);
+    return turned;
 }
 
 void keyCap(std::string_view keys) {
@@ -210,7 +218,7 @@ void tooltip(const std::string& words) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.8f * em(), 0.6f * em()});
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(24.0f * em());
-    text(words);
+    write(words);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
     ImGui::PopStyleVar();
@@ -218,20 +226,41 @@ void tooltip(const std::string& words) {
 
 bool clippedText(std::string_view words, float width) {
     const std::string shown = clipped(words, width);
-    text(shown);
+    ImGui::TextUnformatted(shown.c_str());
     return shown != words;
 }
 
-void dimText(std::string_view words) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color::kDim);
-    text(words);
+void write(std::string_view words, ImVec4 tint, ImFont* font) {
+    const WithFont letters(font ? font : ImGui::GetFont());
+    ImGui::PushStyleColor(ImGuiCol_Text, tint);
+    ImGui::TextUnformatted(words.data(), words.data() + words.size());
     ImGui::PopStyleColor();
 }
 
-void dimWrapped(std::string_view words) {
+void dimText(std::string_view words, ImFont* font) {
+    write(words, color::kDim, font);
+}
+
+void dimWrapped(std::string_view words, ImFont* font) {
     ImGui::PushTextWrapPos(0.0f);
-    dimText(words);
+    dimText(words, font);
     ImGui::PopTextWrapPos();
+}
+
+Overlay::Overlay(const char* name, const OverlayLook& look) {
+    ImGui::SetNextWindowBgAlpha(look.alpha);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, look.rounding * em());
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, look.hasBorder ? 1.0f : 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                        {look.padding.x * em(), look.padding.y * em()});
+    ImGui::Begin(name, nullptr,
+                 look.more | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+}
+
+Overlay::~Overlay() {
+    ImGui::End();
+    ImGui::PopStyleVar(3);
 }
 
 float labelColumn() {

@@ -36,18 +36,20 @@ bool litButton(const char* label, bool lit, float width, ImVec4 tint = color::kL
 /// The same for what matters less: its ground stays calm.
 bool quietButton(const char* label, bool lit, float width);
 
-/// A button that does what a key does.
-struct ActionButton {
-    const char *label, *help;
-    Action action;
-    bool lit = false, can = true;
-};
-void actionButton(ViewState& state, const ActionButton& button, float width);
-/// Draws action buttons side by side, of equal width, in the style of quietButton().
-void actionRow(ViewState& state, std::span<const ActionButton> buttons, float width);
+/// A button that does what a key does, with that action's label and tip.
+enum class ButtonStyle { Lit, Quiet };
+void actionButton(ViewState& state, KeyStroke stroke, float width,
+                  ButtonStyle style = ButtonStyle::Lit);
+/// Draws such buttons side by side, of equal width.
+void actionRow(ViewState& state, std::initializer_list<KeyStroke> strokes, float width,
+               ButtonStyle style = ButtonStyle::Lit);
 
-/// Choices beside each other over the width that is left, of which one is lit. What was pressed.
-std::optional<int> segments(const char* id, std::span<const char* const> names, int lit);
+/// A row of choices beside each other, of which one is lit. Returns what was pressed.
+std::optional<int> segments(const char* label, std::span<const char* const> names, int lit,
+                            const std::string& tip);
+
+/// A row with a switch; true when it was turned.
+bool switchRow(const char* label, bool on, const std::string& tip);
 
 /// Around the item before it while the keyboard is on it; for items that do not draw it themselves.
 void focusRing();
@@ -65,8 +67,37 @@ ImVec2 middleBeside(float panelEnd, float width);
 /// Text that ends in dots where the room ends; true if some was left out.
 bool clippedText(std::string_view text, float width);
 
-void dimText(std::string_view text);
-void dimWrapped(std::string_view text);
+/// Writes text; without a font in the present one.
+void write(std::string_view text, ImVec4 tint = color::kText, ImFont* font = nullptr);
+void dimText(std::string_view text, ImFont* font = nullptr);
+void dimWrapped(std::string_view text, ImFont* font = nullptr);
+
+/// Letters are in another font until the end of the scope.
+class WithFont {
+public:
+    explicit WithFont(ImFont* font) { ImGui::PushFont(font); }
+    ~WithFont() { ImGui::PopFont(); }
+    WithFont(const WithFont&) = delete;
+    WithFont& operator=(const WithFont&) = delete;
+};
+
+/// A window over the pictures that cannot be moved, from here to the end of the scope.
+struct OverlayLook {
+    float alpha;            ///< of its ground
+    ImVec2 padding;         ///< em
+    float rounding = 0.45f; ///< em
+    bool hasBorder = false;
+    ImGuiWindowFlags more = 0; ///< beside those of all overlays
+};
+inline constexpr ImGuiWindowFlags kUntouched =
+    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs;
+class Overlay {
+public:
+    Overlay(const char* name, const OverlayLook& look);
+    ~Overlay();
+    Overlay(const Overlay&) = delete;
+    Overlay& operator=(const Overlay&) = delete;
+};
 
 /// A slider whose bar is filled up to its value, or from zero where zero is inside the range. True
 /// when it was moved. Its width is as for the next item.
@@ -84,5 +115,28 @@ void fieldRow(Panes& panes, const Field& field);
 void rowLabel(std::string_view label);
 
 float labelColumn();
+
+/// A choice among values by their names; true when one was chosen, also the same again.
+template <class Value, class Values, class NameOf>
+bool choose(const char* id, Value& value, const Values& values, NameOf nameOf) {
+    bool chosen = false;
+    if (!ImGui::BeginCombo(id, std::string(nameOf(value)).c_str(), ImGuiComboFlags_HeightLarge))
+        return false;
+    for (const auto& other : values)
+        if (ImGui::Selectable(std::string(nameOf(other)).c_str(), other == value)) {
+            value = other;
+            chosen = true;
+        }
+    ImGui::EndCombo();
+    return chosen;
+}
+template <class Value, class Values, class NameOf>
+bool chooseRow(const char* label, Value& value, const Values& values, NameOf nameOf,
+               const char* tip) {
+    rowLabel(label);
+    const bool chosen = choose((std::string("##") + label).c_str(), value, values, nameOf);
+    tooltip(tip);
+    return chosen;
+}
 
 } // namespace afterglow

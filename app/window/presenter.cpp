@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/window/presenter.h"
 
-#include <vector>
-
 namespace afterglow {
 namespace {
 

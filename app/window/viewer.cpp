@@ -101,12 +101,10 @@ void Viewer::takeStrokes(const WindowInput& input) {
         return;
     ViewState& state = workbench_.state;
     for (const KeyStroke& stroke : input.strokes) {
-        const auto command = commandFor(stroke);
         // In the panel all keys are its own but those that lead out of it.
-        const bool leaves = command && (command->action == Action::FocusPanel ||
-                                        command->action == Action::Dismiss);
-        if (command && (!state.keyboardInPanel || leaves))
-            perform(state, *command);
+        const bool leaves = stroke == KeyStroke{Key::F10} || stroke == KeyStroke{Key::Escape};
+        if (!state.keyboardInPanel || leaves)
+            press(state, stroke);
     }
 }
 

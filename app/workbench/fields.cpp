@@ -36,10 +36,6 @@ bool isDefault(const Settings& settings, const Field& field) {
     return fieldValue(settings, field) == fieldValue(Settings{}, field);
 }
 
-void resetField(Settings& settings, const Field& field) {
-    setFieldValue(settings, settings, field, fieldValue(Settings{}, field));
-}
-
 std::string valueText(const Field& field, double value) {
     if (!field.choices.empty())
         return std::string(field.choices[std::size_t(value)]);

@@ -16,7 +16,6 @@ double fieldValue(const Settings& settings, const Field& field);
 /// Clamped to its range.
 void setFieldValue(FrameSettings& frame, FilterSettings& filter, const Field& field, double value);
 bool isDefault(const Settings& settings, const Field& field);
-void resetField(Settings& settings, const Field& field);
 
 /// "0.2", "128", "power".
 std::string valueText(const Field& field, double value);

@@ -6,16 +6,15 @@
 #include "renderer/image/image_io.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <thread>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -29,30 +28,16 @@ namespace {
 constexpr int kMaxRecordings = 10000;
 constexpr std::string_view kLog = "ffmpeg.log"; // in the recording's folder
 
-std::string numbered(const char* format, int number) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, number);
-    return text;
-}
-
-std::string shown(glm::ivec2 size) {
-    return std::to_string(size.x) + "x" + std::to_string(size.y);
-}
-
 std::string framesText(int frames) {
     return std::to_string(frames) + (frames == 1 ? " frame" : " frames");
 }
 
-fs::path withSuffix(fs::path path, const char* suffix) {
-    path += suffix;
-    return path;
-}
 fs::path videoOf(const fs::path& folder) {
-    return withSuffix(folder, ".mp4");
+    return folder.string() + ".mp4";
 }
 /// What ffmpeg writes; it gets its name when it is whole.
 fs::path partOf(const fs::path& folder) {
-    return withSuffix(folder, ".mp4.part");
+    return folder.string() + ".mp4.part";
 }
 
 /// A new folder afterglow-NNNN, with the first number that neither a folder nor a video has.
@@ -60,7 +45,7 @@ fs::path makeFolder(const fs::path& parent) {
     std::error_code error;
     fs::create_directories(parent, error);
     for (int number = 1; !error && number < kMaxRecordings; ++number) {
-        const fs::path folder = parent / numbered("afterglow-%04d", number);
+        const fs::path folder = parent / fmt::format("afterglow-{:04}", number);
         std::error_code ignored;
         if (!fs::exists(videoOf(folder), ignored) && fs::create_directory(folder, error))
             return folder;
@@ -87,15 +72,32 @@ std::optional<fs::path> findProgram(const std::string& name, const std::string& 
 /// sizes get a black column or row. The frames are named relative to their folder, because ffmpeg
 /// would read a "%" in the path as a number.
 std::vector<std::string> arguments(const fs::path& folder, int framesPerSecond, bool fallback) {
-    std::vector<std::string> list{"ffmpeg", "-hide_banner", "-nostdin", "-y", "-framerate"};
+    std::vector<std::string> list{
+        "ffmpeg",
+        "-hide_banner",
+        "-nostdin",
+        "-y",
+        "-framerate",
+        std::to_string(framesPerSecond),
+        "-start_number",
+        "0",
+        "-i",
+        "frame_%05d.png",
+        "-vf",
+        "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+        "-pix_fmt",
+        "yuv420p",
+        "-colorspace",
+        "bt709",
+        "-color_primaries",
+        "bt709",
+        "-color_trc",
+        "iec61966-2-1",
+        "-color_range",
+        "tv"};
     const auto add = [&](std::initializer_list<const char*> more) {
         list.insert(list.end(), more.begin(), more.end());
     };
-    list.push_back(std::to_string(framesPerSecond));
-    add({"-start_number", "0", "-i", "frame_%05d.png", "-vf",
-         "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-pix_fmt",
-         "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc",
-         "iec61966-2-1", "-color_range", "tv"});
     if (fallback)
         add({"-c:v", "mpeg4", "-q:v", "2"});
     else
@@ -184,14 +186,14 @@ void FrameRecorder::add(const Image<glm::u8vec4>& frame) {
         return;
     Recording& recording = *recording_;
     if (frame.size() != recording.size) {
-        say("the picture changed from " + shown(recording.size) + " to " + shown(frame.size()) +
-                ": the recording has ended",
+        say(fmt::format("the picture changed from {}x{} to {}x{}: the recording has ended",
+                        recording.size.x, recording.size.y, frame.size().x, frame.size().y),
             true);
         stop();
         return;
     }
     try {
-        writePng(recording.folder / numbered("frame_%05d.png", recording.written), frame);
+        writePng(recording.folder / fmt::format("frame_{:05}.png", recording.written), frame);
     } catch (const Error& error) {
         // Where a frame does not fit, no video will.
         say(std::string(error.what()) + "; the recording has ended, " +

@@ -12,7 +12,8 @@ namespace {
 
 /// "1 frame", "2.5 frames"
 std::string counted(double count, std::string_view what) {
-    return fmt::format("{} {}{}", fourDigits(count), what, count == 1.0 ? "" : "s");
+    const std::string number = fourDigits(count);
+    return fmt::format("{} {}{}", number, what, number == "1" ? "" : "s");
 }
 
 /// Chooses the sentences that a pixel deserves. Every part appends its own.

@@ -45,23 +45,21 @@ void Instruments::measure(Renderer& renderer, const ViewState& state, std::uint3
             frame_->probes[i] = rescaled(placed->probe, placed->image, renderer.size());
     for (const std::size_t pane : shownPanes(state.panes)) {
         frame_->panes[pane] = recordOf(state.panes, pane);
-        measureProbes(renderer, state, pane);
-        if (state.showInspector)
-            countReasons(renderer, state, pane);
+        measurePane(renderer, state, pane);
     }
 }
 
-void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std::size_t pane) {
+void Instruments::measurePane(Renderer& renderer, const ViewState& state, std::size_t pane) {
     const RenderTargets& t = renderer.targets();
     const SvgfPlan plan = renderer.ran(pane)->planOrNone();
     const std::size_t signal = shownSignal(state, renderer.signals().size());
+    const GpuTexture& control = controlOf(renderer, pane, signal);
     FrameContext context{renderer.timer()};
     for (std::size_t i = 0; i < kProbes; ++i) {
         if (!frame_->probes[i])
             continue;
         ProbePass::Inputs in{renderer.filteredSignal(pane, signal), t.signals[signal].raw.current(),
-                             renderer.demodulation(signal), t.surfaces.guides,
-                             controlOf(renderer, pane, signal)};
+                             renderer.demodulation(signal), t.surfaces.guides, control};
         if (renderer.signals().size() > 1) {
             const std::size_t other = 1 - signal; // there are two at most
             in.other.emplace(ProbePass::OtherSignal{renderer.filteredSignal(pane, other),
@@ -71,15 +69,10 @@ void Instruments::measureProbes(Renderer& renderer, const ViewState& state, std:
         probe_.run(context, in, frame_->probes[i]->min, frame_->probes[i]->size);
         pendingProbes_.push_back({i, pane, plan, probe_.copyTo(readback_)});
     }
-}
-
-void Instruments::countReasons(Renderer& renderer, const ViewState& state, std::size_t pane) {
-    const RenderTargets& t = renderer.targets();
-    const SvgfPlan plan = renderer.ran(pane)->planOrNone();
-    const std::size_t signal = shownSignal(state, renderer.signals().size());
-    FrameContext context{renderer.timer()};
-    reasons_.run(context, {controlOf(renderer, pane, signal), t.surfaces.guides,
-                           carriesSamples(state.panes) ? &t.samples : nullptr});
+    if (!state.showInspector)
+        return;
+    reasons_.run(context,
+                 {control, t.surfaces.guides, carriesSamples(state.panes) ? &t.samples : nullptr});
     pendingReasons_.push_back({pane, plan, reasons_.copyTo(readback_)});
 }
 

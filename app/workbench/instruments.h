@@ -52,8 +52,7 @@ private:
         ReasonPass::Region counts;
     };
 
-    void measureProbes(Renderer& renderer, const ViewState& state, std::size_t pane);
-    void countReasons(Renderer& renderer, const ViewState& state, std::size_t pane);
+    void measurePane(Renderer& renderer, const ViewState& state, std::size_t pane);
 
     ProbePass probe_;
     ReasonPass reasons_;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
-#include <span>
+#include <functional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace afterglow {
+
+struct ViewState;
 
 /// A key by its place on a US keyboard. Letters (upper case), digits and signs have their ASCII
 /// code.
@@ -46,93 +49,46 @@ struct KeyStroke {
     bool control = false, shift = false;
     bool operator==(const KeyStroke&) const = default;
 };
+constexpr KeyStroke plain(char key) {
+    return {keyOf(key)};
+}
+constexpr KeyStroke shift(char key) {
+    return {.key = keyOf(key), .shift = true};
+}
+constexpr KeyStroke control(char key) {
+    return {.key = keyOf(key), .control = true};
+}
 
-/// The actions of single keys. Held keys fly the camera; see FlyInput.
-enum class Action {
-    NextFilter,
-    PreviousFilter,
-    ResetHistory,
-    NextLayout,
-    PreviousLayout,
-    NextPane,
-    PreviousPane,
-    SwapPair,
-    DividerLeft,
-    DividerRight,
-    ToggleLight, ///< Command::index is its slot
-    DimLight,    ///< likewise
-    ColorLight,  ///< likewise
-    ToggleKeyLight,
-    Brighter,
-    Darker,
-    TogglePause,
-    StepOnce,
-    NextPass,
-    PreviousPass,
-    Slower,
-    Faster,
-    MarkIn,
-    MarkOut,
-    Replay,
-    StopTake,
-    SaveTake,
-    ToggleRepeat,
-    ToggleAnimation,
-    CutCamera,
-    ToggleCameraPath,
-    GoHome,
-    AddBookmark,
-    GoToBookmark, ///< Command::index
-    NextImage,
-    PreviousImage,
-    ShowPicture,
-    FinerPixels,
-    CoarserPixels,
-    ProbeHere,
-    ClearProbes,
-    NextCurve,
-    CopyCurves,
-    SaveCurves,
-    PinInspector,
-    Freeze,
-    NextOracle,
-    SavePicture,
-    SaveWindow,
-    SaveImageFiles,
-    RecordFrames,
-    CopyPreset,
-    PastePreset,
-    ReloadShaders,
-    TogglePanel,
-    ToggleInspector,
-    ToggleCurves,
-    TogglePasses,
-    ToggleStrip,
-    TogglePresets,
-    ToggleTour,
-    NextStop,
-    PreviousStop,
-    ToggleVsync,
-    FocusPanel,
-    ToggleHelp,
-    Dismiss,
-    Quit
+/// Something that a person can do by a key and, where it has a label, by a button. Held keys fly
+/// the camera; see FlyInput.
+struct Action {
+    std::vector<KeyStroke> strokes; ///< any of them
+    std::function<void(ViewState&)> perform;
+    const char *label = "", *tip = "";                  ///< of its button
+    std::function<bool(const ViewState&)> isLit{};      ///< empty: never
+    std::function<bool(const ViewState&)> isPossible{}; ///< empty: always
+    bool records = false;                               ///< while it is lit
 };
 
-struct Command {
-    Action action;
-    int index = 0;
-    bool operator==(const Command&) const = default;
+/// Actions that the key overview names together, in a group of such rows.
+struct KeyRow {
+    std::string_view keys, meaning;
+    std::vector<Action> actions;
 };
-
-/// One row of the key overview; from the same table commandFor() reads.
-struct KeyHelp {
-    std::string_view group, keys, meaning;
+struct KeyGroup {
+    std::string_view title;
+    std::vector<KeyRow> rows;
 };
-std::span<const KeyHelp> keyHelp();
+/// Returns all that keys do: the keyboard is read by it, and buttons and overview are made from it.
+const std::vector<KeyGroup>& keyGroups();
 
-/// Returns the command of a stroke, or nothing. Strokes with Control never mean what they mean
-/// without.
-std::optional<Command> commandFor(KeyStroke stroke);
+/// Returns the action of a stroke, or null. Strokes with Control never mean what they mean without.
+const Action* actionOf(KeyStroke stroke);
+
+/// Does what a stroke means, if anything.
+void press(ViewState& state, KeyStroke stroke);
+
+/// Returns what the button of an action tells: "P or Space. While paused nothing is rendered."
+std::string tipOf(const Action& action);
 
 } // namespace afterglow

@@ -2,7 +2,6 @@
 #include "app/workbench/panes.h"
 
 #include "app/workbench/fields.h"
-#include "renderer/base/names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +14,6 @@ namespace {
 
 constexpr std::array<std::string_view, kPaneLayouts> kLayoutNames{"single", "wipe", "two-up",
                                                                   "four-up", "difference"};
-
-std::size_t wrapped(std::size_t index, int step, std::size_t count) {
-    const int n = int(count);
-    return std::size_t((((int(index) + step) % n) + n) % n);
-}
 
 // A field's name beside its value.
 std::string_view shortName(const Field& field) {
@@ -34,6 +28,11 @@ void keepActiveShown(Panes& panes) {
 
 } // namespace
 
+std::size_t wrapped(std::size_t index, int step, std::size_t count) {
+    const int n = int(count);
+    return std::size_t((((int(index) + step) % n) + n) % n);
+}
+
 bool showsPair(PaneLayout layout) {
     return layout != PaneLayout::Single && layout != PaneLayout::FourUp;
 }
@@ -42,11 +41,8 @@ std::string_view nameOf(PaneLayout layout) {
     return kLayoutNames[std::size_t(layout)];
 }
 
-PaneLayout layoutFromName(std::string_view name) {
-    const auto found = std::ranges::find(kLayoutNames, name);
-    if (found == kLayoutNames.end())
-        throwUnknownName("layout", name, kLayoutNames);
-    return PaneLayout(found - kLayoutNames.begin());
+std::span<const std::string_view> paneLayoutNames() {
+    return kLayoutNames;
 }
 
 Panes startPanes(const Settings& settings) {

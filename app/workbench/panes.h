@@ -25,7 +25,10 @@ enum class PaneLayout {
 inline constexpr std::size_t kPaneLayouts = 5;
 std::string_view nameOf(PaneLayout layout); ///< "single", "wipe", "two-up", "four-up", "difference"
 bool showsPair(PaneLayout layout);          ///< of panes: a left and a right one, or a difference
-PaneLayout layoutFromName(std::string_view name); ///< UsageError names the nearest known
+std::span<const std::string_view> paneLayoutNames();
+
+/// Returns the index so many steps on, or back, in a circle of `count`.
+std::size_t wrapped(std::size_t index, int step, std::size_t count);
 
 /// A filter with its parameters, as one of four that can be compared. Each has its own histories:
 /// FilterRun::state is the pane's index.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/workbench/preset_store.h"
 
+#include "app/base/output.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 
@@ -80,11 +81,7 @@ void PresetStore::save(const Preset& preset) {
     const std::string text = presetText(preset);
     parsePreset(text, file.string()); // what is saved can be read
 
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error)
-        throw Error(folder_.string() + ": cannot be created: " + error.message());
-    writeFileAtomically(file, text);
+    OutputFolder(folder_).writeText(file.filename().string(), text);
     reload();
 }
 

@@ -10,51 +10,46 @@ namespace {
 constexpr float kDimmed = 0.5f;
 constexpr glm::vec3 kBlue{0.25f, 1.21157f, 2.6f}; // the tint of the experiment light-color
 
-/// Returns the event that a light's action causes from the light's present state.
-LightEvent lightEvent(const ViewState& state, Action action, std::size_t slot) {
+/// Returns the change of a light that an event causes from its present state.
+LightEvent lightEvent(const ViewState& state, const SceneEvent& what) {
     constexpr glm::vec3 kWhite{1.0f};
-    const LightState& light = state.lights[slot];
-    LightEvent event{.light = state.lightNames[slot]};
-    if (action == Action::ToggleLight)
+    const LightState& light = state.lights[what.slot];
+    LightEvent event{.light = state.lightNames[what.slot]};
+    if (what.kind == EventKind::Toggle)
         event.on = !light.on;
-    else if (action == Action::DimLight)
+    else if (what.kind == EventKind::Dim)
         event.power = light.power == kDimmed ? 1.0f : kDimmed;
     else
-        event.tint = light.tint == kWhite ? equalLuminanceTint(state.lightColors[slot]) : kWhite;
+        event.tint =
+            light.tint == kWhite ? equalLuminanceTint(state.lightColors[what.slot]) : kWhite;
     return event;
 }
 
 } // namespace
 
-bool isLightAction(Action action) {
-    return action == Action::ToggleLight || action == Action::DimLight ||
-           action == Action::ColorLight;
+bool concernsLight(EventKind kind) {
+    return kind <= EventKind::Recolor;
 }
 
-std::string nameOf(const Command& event, std::span<const std::string> lightNames) {
-    const auto slot = std::size_t(event.index);
-    const std::string light = slot < lightNames.size() ? lightNames[slot] : "no light";
-    switch (event.action) {
-    case Action::ToggleLight: return "toggle " + light;
-    case Action::DimLight: return "dim " + light;
-    case Action::ColorLight: return "recolor " + light;
-    case Action::ToggleAnimation: return "start or stop what moves";
-    case Action::CutCamera: return "camera cut";
-    case Action::ToggleCameraPath: return "camera path";
-    default: return {};
-    }
+std::string nameOf(const SceneEvent& event, std::span<const std::string> lightNames) {
+    constexpr const char* kNames[] = {
+        "toggle ", "dim ", "recolor ", "start or stop what moves", "camera cut", "camera path"};
+    const std::string name = kNames[std::size_t(event.kind)];
+    if (!concernsLight(event.kind))
+        return name;
+    return name + (event.slot < lightNames.size() ? lightNames[event.slot] : "no light");
 }
 
-void letHappen(ViewState& state, const Command& event) {
-    if (isLightAction(event.action)) {
-        const auto slot = std::size_t(event.index);
-        if (slot >= state.lights.size())
+void letHappen(ViewState& state, const SceneEvent& event) {
+    if (concernsLight(event.kind)) {
+        if (event.slot >= state.lights.size())
             return;
-        state.lights[slot] = withEvent(state.lights[slot], lightEvent(state, event.action, slot));
-    } else if (event.action == Action::ToggleAnimation) {
+        LightState& light = state.lights[event.slot];
+        light = withEvent(light, lightEvent(state, event));
+    } else if (event.kind == EventKind::Animation) {
         toggleAnimation(state);
         state.marks.push_back(state.time.animate ? "movement starts" : "movement stops");
-    } else if (event.action == Action::CutCamera) {
+    } else if (event.kind == EventKind::CameraCut) {
         cutCamera(state);
     } else {
         state.onPath = !state.onPath;

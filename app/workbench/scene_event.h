@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/workbench/keymap.h"
-
-#include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -13,22 +11,29 @@ namespace afterglow {
 
 struct ViewState;
 
-/// The actions that let something happen in the scene: what repeats is one of them.
-inline constexpr std::array kSceneActions{
-    Action::ToggleLight,      ///< on or off
-    Action::DimLight,         ///< to half its power and back
-    Action::ColorLight,       ///< to another color of equal luminance and back
-    Action::ToggleAnimation,  ///< starts or stops what moves in the scene
-    Action::CutCamera,        ///< to the next camera or bookmark
-    Action::ToggleCameraPath, ///< starts or stops the camera's way
+enum class EventKind {
+    Toggle,    ///< a light on or off
+    Dim,       ///< a light to half its power and back
+    Recolor,   ///< a light to another color of equal luminance and back
+    Animation, ///< starts or stops what moves in the scene
+    CameraCut, ///< to the next camera or bookmark
+    CameraPath ///< starts or stops the camera's way
 };
-bool isLightAction(Action action); ///< of one light: Command::index is its slot
+inline constexpr std::size_t kEventKinds = 6;
+bool concernsLight(EventKind kind);
 
-/// Returns what the action will do: "toggle key", "camera cut".
-std::string nameOf(const Command& event, std::span<const std::string> lightNames);
+/// Something that a person lets happen in the scene: what repeats is one of these.
+struct SceneEvent {
+    EventKind kind = EventKind::Toggle;
+    std::size_t slot = 0; ///< of the light that it concerns
+    bool operator==(const SceneEvent&) const = default;
+};
 
-/// Performs the action, and keeps it as the one that repeats. Does nothing without such a light.
-void letHappen(ViewState& state, const Command& event);
+/// Returns what the event will do: "toggle key", "camera cut".
+std::string nameOf(const SceneEvent& event, std::span<const std::string> lightNames);
+
+/// Lets it happen, and keeps it as the one that repeats. Does nothing without such a light.
+void letHappen(ViewState& state, const SceneEvent& event);
 
 /// Returns the tint that turns light of this color (linear rgb) to another hue and leaves its
 /// luminance as it is: what a gradient of luminance cannot see. White becomes blue; the key light

@@ -8,7 +8,6 @@
 #include "renderer/pipeline/aov.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace afterglow {
@@ -19,17 +18,8 @@ constexpr int kRarest = 100000;           // frames
 constexpr glm::ivec2 kNominal{1280, 720}; // a probe is placed on it before there is a picture
 constexpr std::string_view kAllLights = "*";
 
-// Names of kSceneActions.
-constexpr std::array<std::string_view, kSceneActions.size()> kEventNames{
+constexpr std::array<std::string_view, kEventKinds> kEventNames{
     "toggle", "dim", "recolor", "animation", "camera-cut", "camera-path"};
-
-template <typename T, typename Name> // of what to choose from
-std::size_t choiceOf(const JsonReader& json, const T& values, Name name) {
-    std::vector<std::string_view> names;
-    for (const auto& value : values)
-        names.push_back(name(value));
-    return json.choice(names);
-}
 
 std::string readLine(const JsonReader& json, std::string_view wanted) {
     std::string text = json.text();
@@ -87,8 +77,8 @@ std::vector<std::string> readLights(const JsonReader& json) {
 TourEvent readEvent(const JsonReader& json) {
     json.expectKeys({"event", "light", "every"});
     TourEvent event;
-    event.action = kSceneActions[json.at("event").choice(kEventNames)];
-    if (isLightAction(event.action))
+    event.kind = EventKind(json.at("event").choice(kEventNames));
+    if (concernsLight(event.kind))
         event.light = readLine(json.at("light"), "the name of a light");
     else if (const auto light = json.find("light"))
         light->refuse("this event concerns no light");
@@ -109,10 +99,8 @@ int readFrameLimit(const JsonReader& json) {
 
 std::array<float, 4> readProbe(const JsonReader& json) {
     constexpr std::string_view kWanted = "[left, top, right, bottom] in parts of the picture";
-    const std::vector<JsonReader> edges = json.list(kWanted, 4, 4);
-    std::array<float, 4> probe{};
-    for (std::size_t i = 0; i < probe.size(); ++i)
-        probe[i] = float(edges[i].number(0.0, 1.0));
+    const auto edges = json.vector<glm::vec4>(kWanted, 0.0, 1.0);
+    const std::array<float, 4> probe{edges[0], edges[1], edges[2], edges[3]};
     if (probe[0] >= probe[2] || probe[1] >= probe[3])
         json.refuse("expected left < right and top < bottom");
     return probe;
@@ -134,43 +122,35 @@ TourStop readStop(const JsonReader& json) {
     stop.title = readLine(json.at("title"), "a title");
     stop.text = readLine(json.at("text"), "what is said at this stop");
     stop.scene = readLine(json.at("scene"), "the name of a scene");
-    if (const auto signal = json.find("signal")) {
-        stop.signal = allSignals()[signal->choice(signalNames())];
-    }
+    readIfThere(json, "signal", stop.signal, [](const JsonReader& signal) {
+        return allSignals()[signal.choice(signalNames())];
+    });
     if (const auto panes = json.find("panes")) {
         std::size_t pane = 0;
         for (const JsonReader& item : panes->list("a list of 1 to 4 filters", 1, kFilterStates))
             stop.panes[pane++] = readPane(item);
     }
-    if (const auto layout = json.find("layout")) {
-        std::array<PaneLayout, kPaneLayouts> layouts;
-        for (std::size_t i = 0; i < kPaneLayouts; ++i)
-            layouts[i] = PaneLayout(i);
-        stop.layout =
-            layouts[choiceOf(*layout, layouts, [](PaneLayout value) { return nameOf(value); })];
-    }
-    if (const auto pair = json.find("pair"))
-        stop.pair = readPair(*pair);
-    if (const auto gain = json.find("gain"))
-        stop.gain = float(gain->number(0.1, 100.0));
-    if (const auto image = json.find("image"))
-        stop.image = refusedAt(*image, [&] { return std::string(aovByName(image->text()).name); });
-    if (const auto lights = json.find("lights"))
-        stop.lights = readLights(*lights);
-    if (const auto repeat = json.find("repeat"))
-        stop.repeats = readEvent(*repeat);
-    if (const auto animated = json.find("animated"))
-        stop.animated = animated->boolean();
-    if (const auto path = json.find("cameraPath"))
-        stop.cameraPath = path->boolean();
-    if (const auto limit = json.find("framesPerSecond"))
-        stop.frameLimit = readFrameLimit(*limit);
-    if (const auto probe = json.find("probe"))
-        stop.probe = readProbe(*probe);
-    if (const auto curve = json.find("curve"))
-        stop.curve = quantities()[choiceOf(*curve, quantities(), [](const QuantityInfo& info) {
-                         return info.name;
-                     })].quantity;
+    readIfThere(json, "layout", stop.layout, [](const JsonReader& layout) {
+        return PaneLayout(layout.choice(paneLayoutNames()));
+    });
+    readIfThere(json, "pair", stop.pair, readPair);
+    readIfThere(json, "gain", stop.gain,
+                [](const JsonReader& gain) { return gain.number(0.1, 100.0); });
+    readIfThere(json, "image", stop.image, [](const JsonReader& image) {
+        return refusedAt(image, [&] { return aovByName(image.text()).name; });
+    });
+    readIfThere(json, "lights", stop.lights, readLights);
+    readIfThere(json, "repeat", stop.repeats, readEvent);
+    readIfThere(json, "animated", stop.animated, &JsonReader::boolean);
+    readIfThere(json, "cameraPath", stop.cameraPath, &JsonReader::boolean);
+    readIfThere(json, "framesPerSecond", stop.frameLimit, readFrameLimit);
+    readIfThere(json, "probe", stop.probe, readProbe);
+    readIfThere(json, "curve", stop.curve, [](const JsonReader& curve) {
+        std::vector<std::string_view> names;
+        for (const QuantityInfo& info : quantities())
+            names.push_back(info.name);
+        return ProbeQuantity(curve.choice(names));
+    });
     if (const auto open = json.find("open"))
         readPanels(*open, stop);
     return stop;
@@ -230,7 +210,7 @@ void startTime(ViewState& state, const TourStop& stop) {
     if (!stop.repeats)
         return;
     const TourEvent& event = *stop.repeats;
-    state.repeated = {event.action, event.light.empty() ? 0 : int(slotOf(state, event.light))};
+    state.repeated = {event.kind, event.light.empty() ? 0 : slotOf(state, event.light)};
     state.repeatEvery = event.every;
     time.repeat = {.every = event.every, .first = std::uint32_t(event.every)};
 }

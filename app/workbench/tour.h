@@ -8,16 +8,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace afterglow {
 
 /// Something that happens again and again at a stop.
 struct TourEvent {
-    Action action = Action::ToggleLight; ///< one of kSceneActions
-    std::string light = {};              ///< its name; empty: the event concerns none
-    int every = 60;                      ///< frames; it first happens after so many
+    EventKind kind = EventKind::Toggle;
+    std::string light = {}; ///< its name; empty: the event concerns none
+    int every = 60;         ///< frames; it first happens after so many
 };
 
 /// One stop of the guided tour: what is said, and what is set up to show it.

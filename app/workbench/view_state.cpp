@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/workbench/view_state.h"
 
-#include "app/workbench/camera_path.h"
 #include "renderer/base/error.h"
 #include "renderer/pipeline/aov.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -14,10 +12,6 @@ namespace afterglow {
 namespace {
 
 constexpr double kNoticeSeconds = 5.0;
-
-int wrapped(int index, int count) {
-    return ((index % count) + count) % count;
-}
 
 // What each light emits: the color of its first instance's material.
 std::vector<glm::vec3> colorsOf(const Scene& scene) {
@@ -105,13 +99,13 @@ void chooseFilter(ViewState& state, Filter filter) {
 void cycleFilter(ViewState& state, int step) {
     const auto filters = allFilters();
     const auto now = std::ranges::find(filters, state.settings().filter) - filters.begin();
-    chooseFilter(state, filters[std::size_t(wrapped(int(now) + step, int(filters.size())))]);
+    chooseFilter(state, filters[wrapped(std::size_t(now), step, filters.size())]);
 }
 
 void toggleLight(ViewState& state, std::size_t slot) {
     if (slot >= state.lights.size())
         return;
-    letHappen(state, {Action::ToggleLight, int(slot)});
+    letHappen(state, {EventKind::Toggle, slot});
     notify(state, "Light " + state.lightNames[slot] + (state.lights[slot].on ? " on" : " off"));
 }
 
@@ -192,14 +186,14 @@ void goToBookmark(ViewState& state, std::size_t index) {
 }
 
 void cycleImage(ViewState& state, int step) {
-    const int count = int(aovs().size()) + 1; // 0 is the picture
+    const std::size_t count = aovs().size() + 1; // 0 is the picture
     const bool isAov = state.shown.kind == Shown::Kind::Image && !state.shown.isTruth();
-    int place = isAov ? int(state.shown.index) + 1 : 0;
-    for (int tried = 0; tried < count; ++tried) {
-        place = wrapped(place + step, count);
+    std::size_t place = isAov ? state.shown.index + 1 : 0;
+    for (std::size_t tried = 0; tried < count; ++tried) {
+        place = wrapped(place, step, count);
         if (place == 0)
             return show(state, Shown::Kind::Picture);
-        show(state, Shown::Kind::Image, std::size_t(place - 1));
+        show(state, Shown::Kind::Image, place - 1);
         if (shownAov(state, state.panes.active))
             return;
     }
@@ -273,7 +267,8 @@ SceneFrame liveFrame(ViewState& state) {
     if (cut && last.camera != state.camera)
         frame.marks.push_back("camera cut");
     const auto changes = lightChanges(0, state.lightNames, last.lights, state.lights);
-    frame.step = !changes.empty() && frame.marks.empty() && last.camera == state.camera;
+    const bool moves = state.isAnimated && last.seconds != frame.seconds;
+    frame.step = !changes.empty() && frame.marks.empty() && last.camera == state.camera && !moves;
     for (const LightEvent& change : changes)
         frame.marks.push_back(describe(change));
     return frame;

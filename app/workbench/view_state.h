@@ -3,8 +3,8 @@
 
 #include "app/measure/probe_log.h"
 #include "app/scenario/timeline.h"
+#include "app/workbench/camera_flight.h"
 #include "app/workbench/fields.h"
-#include "app/workbench/fly_camera.h"
 #include "app/workbench/frame_images.h"
 #include "app/workbench/keymap.h"
 #include "app/workbench/panes.h"
@@ -90,10 +90,10 @@ struct ViewState {
     bool onPath = false;
     double pathSeconds = 0.0;
 
-    Command repeated{Action::ToggleLight}; ///< the last thing that was let happen
-    int repeatEvery = 60;                  ///< frames, when it repeats
-    std::vector<std::string> marks;        ///< of the next frame, beside what its lights tell
-    bool cutPending = false;               ///< the camera has jumped: marks it
+    SceneEvent repeated;            ///< the last thing that was let happen
+    int repeatEvery = 60;           ///< frames, when it repeats
+    std::vector<std::string> marks; ///< of the next frame, beside what its lights tell
+    bool cutPending = false;        ///< the camera has jumped: marks it
 
     std::uint32_t seed = 0;
     Resolution resolution;
@@ -156,9 +156,6 @@ void toggleFreeze(ViewState& state); ///< also pauses; leaves images of the trut
 void stopTake(ViewState& state);
 void toggleRepeat(ViewState& state);
 void notify(ViewState& state, std::string text, bool isError = false);
-
-/// Does what a key means.
-void perform(ViewState& state, const Command& command);
 
 /// Before a frame: what the person's hands make of it, with marks of what changed since the last.
 /// What repeats happens here.

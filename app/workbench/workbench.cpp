@@ -209,7 +209,7 @@ void Workbench::stepPass(int step) {
     capturesAll_ = true;
     state.showPasses = true;
     show(state, Shown::Kind::Pass, 0);
-    perform(state, {Action::StepOnce});
+    press(state, plain('N'));
 }
 
 void Workbench::inspectPixel(bool rendered) {

@@ -33,9 +33,8 @@ struct WorkbenchBench {
         press(keyOf(key), control, shift);
     }
     void press(Key key, bool control = false, bool shift = false) {
-        const auto command = commandFor({key, control, shift});
-        REQUIRE(command);
-        perform(state, *command);
+        REQUIRE(actionOf({key, control, shift}));
+        afterglow::press(state, {key, control, shift});
     }
     /// So many frames, and not one more.
     void frames(int count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/workbench/camera_path.h"
+#include "app/workbench/camera_flight.h"
 #include "app/workbench/transport.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/workbench/fly_camera.h"
+#include "app/workbench/camera_flight.h"
 
 #include <cmath>
 

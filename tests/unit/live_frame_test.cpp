@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/workbench/camera_path.h"
+#include "app/workbench/camera_flight.h"
 #include "window_hands.h"
 
 #include <set>
@@ -95,6 +95,19 @@ TEST_CASE("a change of light is no step where the camera or the scene begins to 
     CHECK(renderFrame(state).step);
 }
 
+TEST_CASE(
+    "a change of light is no step while the scene moves by itself, and is one when it stands") {
+    ViewState state = running("moving");
+    press(state, '1');
+    const SceneFrame moving = renderFrame(state);
+    CHECK(moving.marks == Texts{"key off"});
+    CHECK_FALSE(moving.step);
+    press(state, 'M');
+    renderFrames(state, 2);
+    press(state, '1');
+    CHECK(renderFrame(state).step);
+}
+
 TEST_CASE("a camera that jumps marks its frame, one that flies or stays does not") {
     ViewState state = running();
     press(state, {Key::Home}); // it is there
@@ -144,7 +157,7 @@ TEST_CASE("the camera's path begins at home, or at the first of two bookmarks, a
             state.camera.position.x -= 0.2f;
             addBookmark(state);
         }
-        letHappen(state, {Action::ToggleCameraPath});
+        letHappen(state, {EventKind::CameraPath});
         renderFrame(state);
         CHECK(glm::distance(state.camera.position, first.position) < 1e-6f);
         glm::vec3 before = state.camera.position;
@@ -184,10 +197,10 @@ TEST_CASE("what repeats happens in the frames first, first + every, ... and in n
 }
 
 TEST_CASE("every kind of event can repeat") {
-    for (const Action action : kSceneActions) {
-        CAPTURE(int(action));
+    for (std::size_t kind = 0; kind < kEventKinds; ++kind) {
+        CAPTURE(kind);
         ViewState state = running("moving");
-        letHappen(state, {action});
+        letHappen(state, {EventKind(kind)});
         renderFrame(state);
         state.repeatEvery = 5;
         toggleRepeat(state);

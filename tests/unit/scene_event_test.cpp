@@ -25,18 +25,18 @@ std::vector<glm::vec3> manyColors() {
 } // namespace
 
 TEST_CASE("a light event that happens twice leaves the light as it was, and the others alone") {
-    for (const auto kind : {Action::ToggleLight, Action::DimLight, Action::ColorLight})
+    for (const auto kind : {EventKind::Toggle, EventKind::Dim, EventKind::Recolor})
         for (std::size_t slot = 0; slot < 2; ++slot) {
             ViewState state = cornellState();
             const auto before = state.lights;
-            letHappen(state, {kind, int(slot)});
-            CHECK(state.repeated == Command{kind, int(slot)});
+            letHappen(state, {kind, slot});
+            CHECK(state.repeated == SceneEvent{kind, slot});
             const LightState& light = state.lights[slot];
-            CHECK(light.on == (kind != Action::ToggleLight));
-            CHECK(light.power == (kind == Action::DimLight ? 0.5f : 1.0f));
-            CHECK((light.tint == glm::vec3(1.0f)) == (kind != Action::ColorLight));
+            CHECK(light.on == (kind != EventKind::Toggle));
+            CHECK(light.power == (kind == EventKind::Dim ? 0.5f : 1.0f));
+            CHECK((light.tint == glm::vec3(1.0f)) == (kind != EventKind::Recolor));
             CHECK(state.lights[1 - slot] == before[1 - slot]);
-            letHappen(state, {kind, int(slot)});
+            letHappen(state, {kind, slot});
             CHECK(state.lights == before);
             CHECK(state.marks.empty()); // lights tell by themselves what they did
         }
@@ -44,8 +44,8 @@ TEST_CASE("a light event that happens twice leaves the light as it was, and the 
 
 TEST_CASE("an event of a light that is not there does nothing and is not remembered") {
     ViewState state = cornellState();
-    const Command before = state.repeated;
-    for (const auto kind : {Action::ToggleLight, Action::DimLight, Action::ColorLight}) {
+    const SceneEvent before = state.repeated;
+    for (const auto kind : {EventKind::Toggle, EventKind::Dim, EventKind::Recolor}) {
         letHappen(state, {kind, 2});
         CHECK(state.lights == std::vector<LightState>(2));
         CHECK(state.repeated == before);
@@ -54,7 +54,7 @@ TEST_CASE("an event of a light that is not there does nothing and is not remembe
 
 TEST_CASE("events on the same light add up") {
     ViewState state = cornellState();
-    for (const auto kind : {Action::ToggleLight, Action::DimLight, Action::ColorLight})
+    for (const auto kind : {EventKind::Toggle, EventKind::Dim, EventKind::Recolor})
         letHappen(state, {kind, 1});
     CHECK_FALSE(state.lights[1].on);
     CHECK(state.lights[1].power == 0.5f);
@@ -63,14 +63,14 @@ TEST_CASE("events on the same light add up") {
 
 TEST_CASE("an event is called by what it will do") {
     const Texts names{"key", "fill"};
-    using enum Action;
-    CHECK(nameOf(Command{ToggleLight, 0}, names) == "toggle key");
-    CHECK(nameOf(Command{DimLight, 1}, names) == "dim fill");
-    CHECK(nameOf(Command{ColorLight, 0}, names) == "recolor key");
-    CHECK(nameOf(Command{ToggleLight, 2}, names) == "toggle no light");
+    using enum EventKind;
+    CHECK(nameOf(SceneEvent{Toggle, 0}, names) == "toggle key");
+    CHECK(nameOf(SceneEvent{Dim, 1}, names) == "dim fill");
+    CHECK(nameOf(SceneEvent{Recolor, 0}, names) == "recolor key");
+    CHECK(nameOf(SceneEvent{Toggle, 2}, names) == "toggle no light");
     std::vector<std::string> all;
-    for (const Action action : kSceneActions)
-        all.push_back(nameOf(Command{action}, names));
+    for (std::size_t kind = 0; kind < kEventKinds; ++kind)
+        all.push_back(nameOf(SceneEvent{EventKind(kind)}, names));
     std::ranges::sort(all);
     CHECK(std::ranges::adjacent_find(all) == all.end());
     CHECK(all.front() != "");
@@ -97,7 +97,7 @@ TEST_CASE("another color has the same luminance, and another hue where light has
 
 TEST_CASE("the key light of the Cornell box turns as in the experiment light-color") {
     ViewState state = cornellState();
-    letHappen(state, {Action::ColorLight, 0});
+    letHappen(state, {EventKind::Recolor, 0});
     const glm::vec3 experiment =
         loadExperiment("light-color").timeline.lightsAt(makeProceduralScene("cornell"), 64)[0].tint;
     CHECK(glm::distance(state.lights[0].tint, experiment) < 1e-4f);

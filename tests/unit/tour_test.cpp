@@ -336,8 +336,8 @@ TEST_CASE("every member of a stop is read, and the rest has its documented value
     CHECK(aovs()[state.shown.index].name == "alpha");
     for (std::size_t i = 0; i < state.lights.size(); ++i)
         CHECK(state.lights[i].on == (state.lightNames[i] == "fill"));
-    CHECK(state.repeated.action == Action::DimLight);
-    CHECK(state.lightNames[std::size_t(state.repeated.index)] == "fill");
+    CHECK(state.repeated.kind == EventKind::Dim);
+    CHECK(state.lightNames[state.repeated.slot] == "fill");
     CHECK(state.time.repeat.every == 7);
     CHECK(state.repeatEvery == 7);
     CHECK_FALSE(state.time.animate);

@@ -19,11 +19,6 @@ inline ViewState cornellState() {
     return stateOf("cornell");
 }
 
-inline void press(ViewState& state, KeyStroke stroke) {
-    const auto command = commandFor(stroke);
-    REQUIRE(command);
-    perform(state, *command);
-}
 inline void press(ViewState& state, char key) {
     press(state, KeyStroke{keyOf(key)});
 }

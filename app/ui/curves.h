@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/measure/live_response.h"
 #include "app/ui/draw.h"
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace afterglow {
@@ -31,5 +33,19 @@ std::optional<std::size_t> drawCurves(const PanelContext& panel, const CurveChar
 
 /// A line from left to right in the style of a probe, for a legend.
 void drawLineSample(ImDrawList& draw, ImVec2 from, float length, std::size_t probe, ImU32 tint);
+
+/// How one pane answers a change of light, at the active probe.
+struct PaneResponse {
+    std::size_t pane = 0;
+    LiveResponse response;
+};
+/// A row for each, with numbers that can be read from afar.
+void responseTable(const PanelContext& panel, std::span<const PaneResponse> responses,
+                   const UiRect& where);
+
+/// For what has no response: the newest value of every pane at the active probe.
+void valueTable(const PanelContext& panel, std::span<const CurveLine> lines, const UiRect& where);
+
+std::string nameOf(const QuantityInfo& quantity); ///< "history, frames"
 
 } // namespace afterglow
