@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Makes docs/performance.md and its two pictures: runs `afterglow bench` over sizes of the picture and over numbers of
 triangles, and draws how times and rays grow with both.

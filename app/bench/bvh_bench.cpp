@@ -38,14 +38,14 @@ BvhFigures measureBvh(const Scene& scene, int repeats) {
             figures.depth = depthOf(root.record, records);
         }
         refitTimes.push_back(millisecondsOf([&] { refitBvh(root, records); }));
-        if (EmbreeScene::isBuiltIn())
+        if (EmbreeScene::isThere())
             embreeTimes.push_back(EmbreeScene(triangles, figures.threads).buildMilliseconds());
     }
     figures.triangles = triangles.size();
     figures.scene = spreadOf(sceneTimes);
     figures.build = spreadOf(buildTimes);
     figures.refit = spreadOf(refitTimes);
-    if (EmbreeScene::isBuiltIn())
+    if (EmbreeScene::isThere())
         figures.embree = {.build = spreadOf(embreeTimes),
                           .sahCost = EmbreeScene::sahCost(boxes, figures.threads)};
     return figures;
@@ -87,7 +87,7 @@ std::string tableOf(const BvhFigures& bvh) {
     return table.text() +
            fmt::format("  {} triangles, {} ({:.1f} bytes each), depth {}; {} threads{}\n\n",
                        bvh.triangles, bytesText(double(bvh.bytes)), double(bvh.bytes) / triangles,
-                       bvh.depth, bvh.threads, embree ? "" : "; not built with Embree");
+                       bvh.depth, bvh.threads, embree ? "" : "; without Embree");
 }
 
 } // namespace afterglow

@@ -12,13 +12,13 @@
 
 namespace afterglow {
 
-/// Embree 3 over the triangles of a scene, at medium quality and without its robust mode. In a
-/// program that was built without it there is none.
+/// Embree 3 over the triangles of a scene, at medium quality and without its robust mode.
 class EmbreeScene {
 public:
-    static bool isBuiltIn();
+    /// Returns whether the program was built for it and this machine has its library.
+    static bool isThere();
 
-    /// Builds its tree. Error if the program was built without Embree.
+    /// Builds its tree. Error where Embree is not there.
     EmbreeScene(std::span<const gpu::BvhTriangle> triangles, unsigned threads);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;

@@ -73,7 +73,7 @@ std::vector<RayFigures> measureRays(Renderer& renderer, ShaderLibrary& shaders, 
                                     Progress& progress) {
     const auto triangles = trianglesOf(renderer.lightingCall(0).scene.bvh());
     std::optional<EmbreeScene> embree;
-    if (EmbreeScene::isBuiltIn())
+    if (EmbreeScene::isThere())
         embree.emplace(triangles, tracingThreads());
     RayLists lists(renderer, shaders);
     std::vector<RayFigures> figures;
@@ -126,8 +126,8 @@ std::string tableOf(std::span<const RayFigures> kinds, bool onCpu) {
             row.insert(row.end(), {"-", "-", "-", "-"});
         table.add(std::move(row));
     }
-    if (!EmbreeScene::isBuiltIn())
-        return table.text() + "  not built with Embree\n\n";
+    if (!EmbreeScene::isThere())
+        return table.text() + "  without Embree: its library is not there\n\n";
     return table.text() +
            fmt::format("  Embree: {} CPU threads{}; ratio: its rate over ours\n\n",
                        tracingThreads(),

@@ -239,7 +239,7 @@ Json Bench::facts(const Headless& headless, const Json& scenes) const {
             {"machine", describeMachine()},
             {"gl", describe(headless.gl)},
             {"tracing_threads", tracingThreads()},
-            {"embree", EmbreeScene::isBuiltIn()},
+            {"embree", EmbreeScene::isThere()},
             {"what", what_},
             {"filters", filters},
             {"sizes", sizes},

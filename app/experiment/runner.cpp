@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include <fmt/format.h>
 
@@ -144,16 +145,16 @@ void Run::makeReferences() {
 
 void Run::measure(Meter& meter, int frame, const Variant& variant, const FrameImages& images,
                   MetricsTable& table, const OutputFolder& out) {
-    out.writePng(frameStem("frame", frame) + ".png", images.display);
-    if (std::ranges::find(plan_.pictures, frame) == plan_.pictures.end()) {
-        meter.measure(frame, images, table, variant.name);
-        return;
-    }
+    // On another thread: packing takes as long as some measures do.
+    std::future<void> written = std::async(std::launch::async, [&] {
+        out.writePng(frameStem("frame", frame) + ".png", images.display);
+    });
+    const bool isPicture = std::ranges::find(plan_.pictures, frame) != plan_.pictures.end();
     FrameMaps maps;
-    meter.measure(frame, images, table, variant.name, &maps);
-    const OutputFolder mapFolder = out.subfolder("maps");
+    meter.measure(frame, images, table, variant.name, isPicture ? &maps : nullptr);
+    written.get();
     for (const auto& [name, map] : maps)
-        mapFolder.writePng(frameStem(name, frame) + ".png", grayOf(map));
+        out.subfolder("maps").writePng(frameStem(name, frame) + ".png", grayOf(map));
 }
 
 void Run::runVariant(const Variant& variant) {

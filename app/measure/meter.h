@@ -31,7 +31,8 @@ FrameImages readFrame(const Renderer& renderer, bool withControl, std::size_t st
 /// "alpha_ideal", as far as they are there; of a second signal "lambda_ao" and so on.
 using FrameMaps = std::vector<std::pair<std::string, Image<float>>>;
 
-/// Takes the measures of one variant, frame by frame.
+/// Takes the measures of one variant, frame by frame. The parts of a frame's measures that do not
+/// share anything run on all threads of the machine; what they find does not depend on that.
 class Meter {
 public:
     /// All three must outlive it, and the truths of the frames that are measured must be there.
@@ -45,17 +46,21 @@ public:
                  const std::string& variant, FrameMaps* maps = nullptr);
 
 private:
-    void measureQuality(int frame, const FrameImages& images);
-    void measureChange(int frame, const FrameImages& images);
-    void measureTrail(int frame, const FrameImages& images);
-    void measureControl(int frame, const FrameImages& images);
-    void measureLambda(int frame, const Image<float>& lambda, std::size_t signal);
-    void measureAlpha(int frame, const ControlImages& control, std::size_t signal);
-    void addOfSignal(std::size_t signal, const char* metric, double value);
-    void addMap(std::size_t signal, const char* name, Image<float> map);
+    /// What one part has found.
+    struct Findings {
+        std::vector<std::pair<std::string, double>> rows{};
+        FrameMaps maps{};
+        void add(std::string metric, double value) { rows.emplace_back(std::move(metric), value); }
+    };
+    void measureError(int frame, const FrameImages& images, Findings& found) const;
+    void measureSimilarity(int frame, const FrameImages& images, Findings& found) const;
+    void measureFlip(int frame, const FrameImages& images, Findings& found);
+    void measureTime(int frame, const FrameImages& images, Findings& found);
+    void measureChange(int frame, const FrameImages& images, Findings& found);
+    void measureTrail(int frame, const FrameImages& images, Findings& found) const;
+    void measureControl(int frame, const FrameImages& images, Findings& found) const;
     void keep(int frame, const FrameImages& images);
     const PictureChange* changeTo(std::size_t interval);
-    void add(std::string metric, double value) { rows_.emplace_back(std::move(metric), value); }
 
     const Experiment& experiment_;
     const RunPlan& plan_;
@@ -67,9 +72,6 @@ private:
     Image<glm::vec4> before_; ///< the frame before
     int beforeFrame_ = -1;
     Flicker flicker_;
-    std::vector<std::pair<std::string, double>> rows_;
-    std::vector<std::pair<std::string, std::vector<double>>> ofSignals_; ///< this frame's, by name
-    FrameMaps* maps_ = nullptr;
 };
 
 } // namespace afterglow

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "renderer/gl/runtime_library.h"
+
 #include "renderer/base/error.h"
-#include "renderer/gl/context_backends.h"
 
 #include <dlfcn.h>
 

@@ -17,7 +17,7 @@ namespace {
 
 struct EmbreeScene::Impl {};
 
-bool EmbreeScene::isBuiltIn() {
+bool EmbreeScene::isThere() {
     return false;
 }
 

@@ -2,6 +2,7 @@
 #include "app/bench/embree_scene.h"
 
 #include "renderer/base/error.h"
+#include "renderer/gl/runtime_library.h"
 
 #include <algorithm>
 #include <array>
@@ -56,10 +57,58 @@ private:
     std::vector<std::jthread> others_; // joined first: they use the others
 };
 
+/// The functions of Embree that are used. It is opened when it is first asked for: no other command
+/// pays for it, and the program runs on machines without it.
+struct Embree {
+    RuntimeLibrary library{"libembree3.so.3"};
+    decltype(::rtcAttachGeometry)* attachGeometry =
+        function<decltype(::rtcAttachGeometry)>("rtcAttachGeometry");
+    decltype(::rtcBuildBVH)* buildBvh = function<decltype(::rtcBuildBVH)>("rtcBuildBVH");
+    decltype(::rtcCommitGeometry)* commitGeometry =
+        function<decltype(::rtcCommitGeometry)>("rtcCommitGeometry");
+    decltype(::rtcCommitScene)* commitScene =
+        function<decltype(::rtcCommitScene)>("rtcCommitScene");
+    decltype(::rtcGetDeviceError)* getDeviceError =
+        function<decltype(::rtcGetDeviceError)>("rtcGetDeviceError");
+    decltype(::rtcIntersect1)* intersect1 = function<decltype(::rtcIntersect1)>("rtcIntersect1");
+    decltype(::rtcNewBVH)* newBvh = function<decltype(::rtcNewBVH)>("rtcNewBVH");
+    decltype(::rtcNewDevice)* newDevice = function<decltype(::rtcNewDevice)>("rtcNewDevice");
+    decltype(::rtcNewGeometry)* newGeometry =
+        function<decltype(::rtcNewGeometry)>("rtcNewGeometry");
+    decltype(::rtcNewScene)* newScene = function<decltype(::rtcNewScene)>("rtcNewScene");
+    decltype(::rtcOccluded1)* occluded1 = function<decltype(::rtcOccluded1)>("rtcOccluded1");
+    decltype(::rtcReleaseBVH)* releaseBvh = function<decltype(::rtcReleaseBVH)>("rtcReleaseBVH");
+    decltype(::rtcReleaseDevice)* releaseDevice =
+        function<decltype(::rtcReleaseDevice)>("rtcReleaseDevice");
+    decltype(::rtcReleaseGeometry)* releaseGeometry =
+        function<decltype(::rtcReleaseGeometry)>("rtcReleaseGeometry");
+    decltype(::rtcReleaseScene)* releaseScene =
+        function<decltype(::rtcReleaseScene)>("rtcReleaseScene");
+    decltype(::rtcSetGeometryBuildQuality)* setGeometryBuildQuality =
+        function<decltype(::rtcSetGeometryBuildQuality)>("rtcSetGeometryBuildQuality");
+    decltype(::rtcSetNewGeometryBuffer)* setNewGeometryBuffer =
+        function<decltype(::rtcSetNewGeometryBuffer)>("rtcSetNewGeometryBuffer");
+    decltype(::rtcSetSceneBuildQuality)* setSceneBuildQuality =
+        function<decltype(::rtcSetSceneBuildQuality)>("rtcSetSceneBuildQuality");
+    decltype(::rtcThreadLocalAlloc)* threadLocalAlloc =
+        function<decltype(::rtcThreadLocalAlloc)>("rtcThreadLocalAlloc");
+
+    template <class Function>
+    Function* function(const char* name) const {
+        return library.function<Function>(name);
+    }
+};
+
+const Embree& embree() {
+    static const Embree functions;
+    return functions;
+}
+
 RTCDevice newDevice(unsigned threads) {
-    const RTCDevice device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+    const RTCDevice device = embree().newDevice(("threads=" + std::to_string(threads)).c_str());
     if (!device)
-        throw Error("Embree makes no device: error " + std::to_string(rtcGetDeviceError(nullptr)));
+        throw Error("Embree makes no device: error " +
+                    std::to_string(embree().getDeviceError(nullptr)));
     return device;
 }
 
@@ -78,17 +127,19 @@ RTCRay rayOf(const ListedRay& ray) {
             .flags = 0};
 }
 
-bool isOccluded(RTCScene scene, RTCIntersectContext& context, const ListedRay& listed) {
+bool isOccluded(const Embree& embree, RTCScene scene, RTCIntersectContext& context,
+                const ListedRay& listed) {
     RTCRay ray = rayOf(listed);
-    rtcOccluded1(scene, &context, &ray);
+    embree.occluded1(scene, &context, &ray);
     return ray.tfar < 0.0f;
 }
 
-bool isHit(RTCScene scene, RTCIntersectContext& context, const ListedRay& listed) {
+bool isHit(const Embree& embree, RTCScene scene, RTCIntersectContext& context,
+           const ListedRay& listed) {
     RTCRayHit query{};
     query.ray = rayOf(listed);
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene, &context, &query);
+    embree.intersect1(scene, &context, &query);
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -120,7 +171,7 @@ double costBelow(const TreeNode& node) {
 }
 
 TreeNode* newNode(RTCThreadLocalAllocator allocator) {
-    void* const place = rtcThreadLocalAlloc(allocator, sizeof(TreeNode), alignof(TreeNode));
+    void* const place = embree().threadLocalAlloc(allocator, sizeof(TreeNode), alignof(TreeNode));
     return new (place) TreeNode;
 }
 
@@ -146,10 +197,10 @@ void* makeLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive*, std:
 
 struct EmbreeScene::Impl {
     explicit Impl(unsigned count)
-        : workers(count), device(newDevice(count)), scene(rtcNewScene(device)) {}
+        : workers(count), device(newDevice(count)), scene(embree().newScene(device)) {}
     ~Impl() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
+        embree().releaseScene(scene);
+        embree().releaseDevice(device);
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -160,32 +211,37 @@ struct EmbreeScene::Impl {
     double milliseconds = 0.0;
 };
 
-bool EmbreeScene::isBuiltIn() {
-    return true;
+bool EmbreeScene::isThere() {
+    try {
+        embree();
+        return true;
+    } catch (const ContextError&) {
+        return false;
+    }
 }
 
 EmbreeScene::EmbreeScene(std::span<const gpu::BvhTriangle> triangles, unsigned threads)
     : impl_(std::make_unique<Impl>(threads)) {
-    const RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const RTCGeometry geometry = embree().newGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<glm::vec3*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(glm::vec3), 3 * triangles.size()));
+        embree().setNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                      sizeof(glm::vec3), 3 * triangles.size()));
     auto* indices = static_cast<glm::uvec3*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(glm::uvec3), triangles.size()));
+        embree().setNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                      sizeof(glm::uvec3), triangles.size()));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         vertices[3 * i] = triangles[i].v0;
         vertices[3 * i + 1] = triangles[i].v1;
         vertices[3 * i + 2] = triangles[i].v2;
         indices[i] = glm::uvec3(3 * i, 3 * i + 1, 3 * i + 2);
     }
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(impl_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    embree().setGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+    embree().commitGeometry(geometry);
+    embree().attachGeometry(impl_->scene, geometry);
+    embree().releaseGeometry(geometry);
+    embree().setSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
     const auto start = std::chrono::steady_clock::now();
-    rtcCommitScene(impl_->scene);
+    embree().commitScene(impl_->scene);
     impl_->milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -198,14 +254,15 @@ double EmbreeScene::buildMilliseconds() const {
 
 void EmbreeScene::trace(std::span<const ListedRay> rays, bool anyHit,
                         std::span<std::uint8_t> hits) const {
+    const Embree& functions = embree();
     std::atomic<std::size_t> next{0};
     impl_->workers.run([&] {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         for (std::size_t i = next.fetch_add(kChunk); i < rays.size(); i = next.fetch_add(kChunk))
             for (std::size_t k = i; k < std::min(i + kChunk, rays.size()); ++k)
-                hits[k] = anyHit ? isOccluded(impl_->scene, context, rays[k])
-                                 : isHit(impl_->scene, context, rays[k]);
+                hits[k] = anyHit ? isOccluded(functions, impl_->scene, context, rays[k])
+                                 : isHit(functions, impl_->scene, context, rays[k]);
     });
 }
 
@@ -226,7 +283,7 @@ double EmbreeScene::sahCost(std::span<const Aabb> boxes, unsigned threads) {
                          .primID = unsigned(i)};
     }
     const RTCDevice device = newDevice(threads);
-    const RTCBVH bvh = rtcNewBVH(device);
+    const RTCBVH bvh = embree().newBvh(device);
     RTCBuildArguments build = rtcDefaultBuildArguments();
     build.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     build.maxBranchingFactor = gpu::kBvhWidth;
@@ -239,14 +296,14 @@ double EmbreeScene::sahCost(std::span<const Aabb> boxes, unsigned threads) {
     build.setNodeChildren = setChildren;
     build.setNodeBounds = setBounds;
     build.createLeaf = makeLeaf;
-    const auto* const root = static_cast<const TreeNode*>(rtcBuildBVH(&build));
+    const auto* const root = static_cast<const TreeNode*>(embree().buildBvh(&build));
     double cost = 1.0;
     if (root && root->triangles > 0) // a node above the only leaf, as ours has it
         cost += double(root->triangles);
     else if (root && areaOf(all) > 0.0)
         cost += costBelow(*root) / areaOf(all);
-    rtcReleaseBVH(bvh);
-    rtcReleaseDevice(device);
+    embree().releaseBvh(bvh);
+    embree().releaseDevice(device);
     return cost;
 }
 
