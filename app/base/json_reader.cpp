@@ -2,6 +2,7 @@
 #include "app/base/json_reader.h"
 
 #include "renderer/base/error.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,7 @@ std::string shown(const nlohmann::json& value) {
     if (value.is_array())
         return "a list of " + std::to_string(value.size());
     // Bytes that are not UTF-8 are replaced, and a long text is cut.
-    std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    std::string text = asciiJsonText(value);
     return text.size() > kMost ? text.substr(0, kMost) + "..." : text;
 }
 

@@ -3,6 +3,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/json.h"
 #include "renderer/image/image_io.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace afterglow {
@@ -33,7 +35,7 @@ OutputFolder::OutputFolder(std::filesystem::path path) : path_(std::move(path)) 
 }
 
 void OutputFolder::writeJson(std::string_view file, const Json& json) const {
-    writeText(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    writeText(file, jsonText(json, 2) + "\n");
 }
 
 void OutputFolder::writeText(std::string_view file, std::string_view text) const {

@@ -4,6 +4,7 @@
 #include "app/bench/text_table.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <array>
@@ -128,7 +129,7 @@ std::string lineOf(const StartupTimes& times) {
     add("upload", times.upload);
     add("first", times.first);
     add("second", times.second);
-    return std::string(kLineBegins) + line.dump();
+    return std::string(kLineBegins) + jsonText(line);
 }
 
 StartupTimes startupTimesIn(std::string_view output) {
@@ -136,7 +137,11 @@ StartupTimes startupTimesIn(std::string_view output) {
     if (begin == output.npos)
         throw Error("the program that was started to measure its start has told no times");
     const std::string_view rest = output.substr(begin + kLineBegins.size());
-    const auto line = nlohmann::json::parse(rest.substr(0, rest.find('\n')), nullptr, false);
+    nlohmann::json line;
+    try {
+        line = parseSortedJson(rest.substr(0, rest.find('\n')));
+    } catch (const nlohmann::json::exception&) { // as if it told nothing
+    }
     const auto point = [&](const char* name) {
         if (!line.is_object() || !line.contains(name) || !line[name].is_number_integer())
             throw Error(std::string("the times of a start lack ") + name);

@@ -6,12 +6,14 @@
 #include "app/commands/command.h"
 #include "app/measure/reference.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json.h"
 #include "renderer/base/names.h"
 #include "renderer/scene/load_scene.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 
@@ -265,7 +267,7 @@ Json Render::describeRun(const Headless& headless) const {
             {"filter", nameOf(settings.filter)},
             {"signal", nameOf(Signal(settings.lighting.signal))},
             {"light_changes", lights},
-            {"settings", Json::parse(toJson(settings).dump())},
+            {"settings", parseJson(jsonText(toJson(settings)))},
             {"output", {{"frames", written_}, {"aovs", aovs}, {"aov_format", o_.floatFormat()}}}};
 }
 

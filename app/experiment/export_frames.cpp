@@ -6,10 +6,13 @@
 #include "app/measure/truth.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 
@@ -123,7 +126,7 @@ void exportFrames(const Experiment& experiment, const StagedRun& run, Renderer& 
                                 {"commit", commit()},
                                 {"command", "render --export"},
                                 {"gl", describe(gl)},
-                                {"experiment", Json::parse(toJson(experiment))},
+                                {"experiment", parseJson(toJson(experiment))},
                                 {"conventions", conventions()},
                                 {"format", format},
                                 {"files", files},

@@ -7,8 +7,11 @@
 #include "app/report/report.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/json.h"
 
 #include <map>
+
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 
@@ -51,7 +54,7 @@ Json timingOf(const Json& parts) {
 
 Json readJson(const fs::path& file) {
     try {
-        return Json::parse(readFile(file));
+        return parseJson(readFile(file));
     } catch (const Json::exception&) {
         throw InputError(file.string() + ": this is not JSON");
     }
@@ -61,8 +64,12 @@ std::string finishedKey(const fs::path& folder) {
     const fs::path file = folder / "timing.json";
     if (!fs::exists(file) || !fs::exists(folder / "metrics.csv"))
         return {};
-    const Json json = Json::parse(readFile(file), nullptr, false);
-    return json.is_object() ? json.value("key", std::string()) : std::string();
+    try {
+        const Json json = parseJson(readFile(file));
+        return json.is_object() ? json.value("key", std::string()) : std::string();
+    } catch (const Json::parse_error&) {
+        return {};
+    }
 }
 
 void forgetFinished(const fs::path& folder) {

@@ -3,10 +3,12 @@
 
 #include "app/experiment/run_files.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 
@@ -15,18 +17,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kAccount = "experiment.json";
+constexpr const char* kRunFile = "experiment.json";
 constexpr const char* kUnfinished = "unfinished.json"; // while there is no experiment.json
 
 constexpr std::size_t kLongestValue = 40; // characters, in a message
 
 bool holdsRun(const fs::path& folder) {
-    return fs::exists(folder / kAccount) || fs::exists(folder / kUnfinished);
+    return fs::exists(folder / kRunFile) || fs::exists(folder / kUnfinished);
 }
 
 /// The run in a folder.
 WantedRun runIn(const fs::path& folder) {
-    const fs::path file = folder / (fs::exists(folder / kAccount) ? kAccount : kUnfinished);
+    const fs::path file = folder / (fs::exists(folder / kRunFile) ? kRunFile : kUnfinished);
     const Json json = readJson(file);
     WantedRun run;
     try {
@@ -81,8 +83,8 @@ std::string differences(const WantedRun& there, const WantedRun& wanted) {
         if (before == value || (key == "variants" && wanted.anyVariants))
             continue;
         const bool areVariants = key == "variants";
-        const std::string old = (areVariants ? namesOfVariants(there.experiment) : before).dump();
-        const std::string now = (areVariants ? namesOfVariants(wanted.experiment) : value).dump();
+        const std::string old = jsonText(areVariants ? namesOfVariants(there.experiment) : before);
+        const std::string now = jsonText(areVariants ? namesOfVariants(wanted.experiment) : value);
         const bool isTold =
             old != now && old.size() <= kLongestValue && now.size() <= kLongestValue;
         add(isTold ? fmt::format("{} {} and not {}", key, old, now) : "other " + key);
@@ -140,7 +142,7 @@ void removeRun(const fs::path& folder) {
     for (const Json& name : namesOfVariants(run.experiment))
         removeVariant(folder, name);
     for (const char* file : {"metrics.csv", "timing.json", "contact_sheet.png", "report.html",
-                             "summary.json", kUnfinished, kAccount})
+                             "summary.json", kUnfinished, kRunFile})
         fs::remove(folder / file);
 }
 
@@ -158,7 +160,7 @@ void removeRuns(const fs::path& folder) {
 } // namespace
 
 Json describe(const Experiment& experiment) {
-    Json json = Json::parse(toJson(experiment));
+    Json json = parseJson(toJson(experiment));
     // A file's path is relative to the file that names it, and that is another one now.
     if (fs::exists(experiment.scene))
         json["scene"] = fs::absolute(experiment.scene).lexically_normal().string();
@@ -197,7 +199,7 @@ void takeFolder(const WantedRun& wanted, const OutputFolder& folder, bool fresh)
     folder.writeJson(kUnfinished, json);
     if (!before)
         return;
-    for (const char* file : {kAccount, "summary.json"})
+    for (const char* file : {kRunFile, "summary.json"})
         fs::remove(path / file);
     const Json names = namesOfVariants(wanted.experiment);
     for (const Json& name : namesOfVariants(*before))
@@ -213,7 +215,7 @@ void takeFolderForRuns(const OutputFolder& folder, bool fresh) {
 }
 
 void writeAccount(const OutputFolder& folder, const Json& account) {
-    folder.writeJson(kAccount, account);
+    folder.writeJson(kRunFile, account);
     fs::remove(folder.path() / kUnfinished);
 }
 

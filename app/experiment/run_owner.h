@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 

@@ -19,6 +19,7 @@
 #include <future>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 

@@ -6,6 +6,7 @@
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
 #include "renderer/base/hash.h"
+#include "renderer/base/json.h"
 #include "renderer/base/log.h"
 #include "renderer/gl/embedded_shaders.h"
 #include "renderer/image/image_io.h"
@@ -217,8 +218,7 @@ void ReferenceCache::store(const std::string& key, const Reference& reference,
     json["rays"] = reference.rays;
     json["ms"] = reference.milliseconds;
     json["checksum"] = checksumOf(reference);
-    writeFileAtomically(folder_ / (key + ".json"),
-                        json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    writeFileAtomically(folder_ / (key + ".json"), jsonText(json, 2) + "\n");
 }
 
 fs::path defaultCacheFolder() {

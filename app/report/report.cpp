@@ -6,11 +6,14 @@
 #include "app/report/run_folder.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <system_error>
+
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 
@@ -54,7 +57,7 @@ std::string htmlText(std::string_view text) {
 /// Returns JSON that cannot end the element it stands in, or open a comment there: "<" occurs in
 /// strings alone, where an escape says the same.
 std::string scriptJson(const Json& data) {
-    const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string json = jsonText(data);
     std::string escaped;
     escaped.reserve(json.size());
     for (char c : json) {

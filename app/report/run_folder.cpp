@@ -7,12 +7,14 @@
 #include "app/measure/run_outline.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 
@@ -31,7 +33,7 @@ Json readJson(const fs::path& file, Check check) {
     const std::string text = readFile(file);
     const JsonDocument document(text, file.string());
     check(document.root());
-    return Json::parse(text);
+    return parseJson(text);
 }
 
 /// The parts of a run that decide which files there are.

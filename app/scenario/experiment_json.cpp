@@ -5,6 +5,7 @@
 #include "app/scenario/experiment.h"
 #include "app/scenario/presets.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <charconv>
@@ -296,7 +297,7 @@ std::string toJson(const Experiment& experiment) {
         {"referenceSamples", experiment.referenceSamples},
         {"settledWindow", experiment.settledWindow},
     };
-    return json.dump(4) + "\n";
+    return jsonText(json, 4) + "\n";
 }
 
 } // namespace afterglow

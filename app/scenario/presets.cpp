@@ -4,6 +4,7 @@
 #include "app/base/embedded.h"
 #include "app/base/json_reader.h"
 #include "renderer/base/error.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <array>
@@ -114,7 +115,7 @@ std::string presetText(const Preset& preset) {
     for (const SettingDifference& change : differencesOf(defaultsOf(settings.filter), settings)) {
         const Field& field = *fieldNamed(change.key);
         if (field.choices.empty())
-            changes[change.key] = Json::parse(change.valueB);
+            changes[change.key] = parseJson(change.valueB);
         else
             changes[change.key] = change.valueB;
     }
@@ -126,7 +127,7 @@ std::string presetText(const Preset& preset) {
     json["source"] = preset.source;
     json["filter"] = nameOf(settings.filter);
     json["settings"] = changes;
-    return json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n";
+    return jsonText(json, 4) + "\n";
 }
 
 Preset presetOf(std::string_view name, const Settings& settings) {

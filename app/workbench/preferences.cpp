@@ -5,6 +5,7 @@
 #include "app/base/output.h"
 #include "renderer/base/error.h"
 #include "renderer/base/file.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -223,7 +224,7 @@ void savePreferences(const fs::path& path, const Preferences& preferences) {
     Json json;
     for (const Member& member : kMembers)
         json[std::string(member.key)] = member.write(preferences);
-    writeFileAtomically(path, json.dump(4, ' ', false, Json::error_handler_t::replace) + "\n");
+    writeFileAtomically(path, jsonText(json, 4) + "\n");
 }
 
 void resetPreferences(const fs::path& path) {

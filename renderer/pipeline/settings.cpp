@@ -2,6 +2,7 @@
 #include "renderer/pipeline/settings.h"
 
 #include "renderer/base/error.h"
+#include "renderer/base/json.h"
 
 #include <algorithm>
 #include <array>
@@ -257,14 +258,14 @@ void applyJson(Settings& settings, const nlohmann::json& json) {
     for (const auto& [key, value] : json.items()) {
         if (key == "filter") {
             if (!value.is_string())
-                throw UsageError("setting 'filter' is a name, not " + value.dump());
+                throw UsageError("setting 'filter' is a name, not " + jsonText(value));
             result.filter = filterFromName(value.get<std::string>());
         } else if (value.is_string()) {
             setField(result, key, value.get<std::string>());
         } else if (value.is_number()) {
             setNumber(result, fieldByKey(key), value.get<double>());
         } else {
-            throw UsageError("setting '" + key + "' is a number or a name, not " + value.dump());
+            throw UsageError("setting '" + key + "' is a number or a name, not " + jsonText(value));
         }
     }
     settings = result;

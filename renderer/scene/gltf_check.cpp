@@ -5,12 +5,15 @@
 #include "renderer/scene/gltf_check.h"
 
 #include "renderer/base/error.h"
+#include "renderer/base/json.h"
 #include "renderer/scene/gltf_checker.h"
 #include "renderer/scene/gltf_container.h"
 
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+
+#include <nlohmann/json.hpp>
 
 namespace afterglow {
 
@@ -35,7 +38,7 @@ GltfDocument GltfChecker::check() {
     checkNodes();
     checkScenes();
     checkAnimations();
-    result_.json = out_.dump();
+    result_.json = jsonText(out_);
     return std::move(result_);
 }
 
@@ -62,7 +65,7 @@ void GltfChecker::checkAsset() {
 GltfDocument readGltfDocument(const fs::path& path) {
     try {
         const GltfContainer container = readGltfContainer(path);
-        const json document = json::parse(container.json);
+        const json document = parseSortedJson(container.json);
         return GltfChecker(path, document, container.binary).check();
     } catch (const GltfFault& fault) {
         throw InputError(path.string() + ": " + forMessage(fault.what()));

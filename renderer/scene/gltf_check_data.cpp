@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
 namespace afterglow {
 
 using nlohmann::json;

@@ -7,6 +7,8 @@
 
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 namespace afterglow {
 
 using nlohmann::json;

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace afterglow {
 
 /// Checks a document against glTF 2.0, section 5 and the rules of section 3, and writes anew what

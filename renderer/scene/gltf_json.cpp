@@ -5,6 +5,8 @@
 
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
 namespace afterglow {
 
 namespace {
@@ -28,6 +30,10 @@ std::string shown(const nlohmann::json& value) {
 }
 
 } // namespace
+
+bool GltfView::has(const char* key) const {
+    return value_->contains(key);
+}
 
 GltfView GltfView::at(const char* key) const {
     const auto found = value_->find(key);

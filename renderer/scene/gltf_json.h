@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace afterglow {
 
@@ -33,7 +33,7 @@ public:
         throw GltfFault(where_ + " " + cause);
     }
 
-    bool has(const char* key) const { return value_->contains(key); }
+    bool has(const char* key) const;
     /// Returns a member that must be there.
     GltfView at(const char* key) const;
     /// Returns a member that must be an object, if it is there.

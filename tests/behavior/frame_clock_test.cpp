@@ -7,6 +7,7 @@
 #include "tests/support/sequence.h"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
