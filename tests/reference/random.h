@@ -78,7 +78,7 @@ public:
 
     /// Before the whole part is taken off; in [0, 3).
     double sum(const Seed& seed, std::uint32_t dimension) const {
-        constexpr std::uint32_t kBases[] = {2, 3, 5, 7, 11};
+        constexpr std::uint32_t kBases[] = {2, 3, 5, 7, 11, 13, 2, 3, 5};
         const std::uint32_t shift = hash2(runSeed_, dimension);
         const glm::ivec2 place((seed.tile.x + shift) % 128u, (seed.tile.y + (shift >> 7)) % 128u);
         return double(tile_(place)) / 65536.0 + 1.0 / 32768.0 +
