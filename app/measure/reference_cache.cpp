@@ -144,6 +144,8 @@ std::string referenceKey(const ReferenceRequest& request, const ReferenceMaker& 
     hash.add(lighting.signal);
     hash.add(lighting.aoRadius);
     hash.add(lighting.signalClamp);
+    if (pathsOf(Signal(lighting.signal)))
+        hash.add(lighting.regularization);
     return hash.hex();
 }
 
@@ -168,6 +170,7 @@ Json describe(const ReferenceRequest& request, const ReferenceMaker& maker) {
             {"signal", nameOf(Signal(lighting.signal))},
             {"ao_radius", lighting.aoRadius},
             {"signal_clamp", lighting.signalClamp},
+            {"regularization", lighting.regularization},
             {"gl",
              {{"vendor", maker.vendor}, {"renderer", maker.renderer}, {"version", maker.version}}},
             {"shaders", maker.shaders}};

@@ -107,6 +107,7 @@ void Renderer::Impl::begin(const FrameInput& input, const FrameSettings& setting
     u.lightTriangleCount = sceneGpu->lightTriangleCount();
     u.aoRadius = settings.lighting.aoRadius * sceneGpu->extent();
     u.signalClamp = settings.lighting.signalClamp;
+    u.regularization = settings.lighting.regularization;
     frame.begin(input.camera, targets.size);
     targets.counters.clear();
 }
@@ -119,8 +120,17 @@ void Renderer::Impl::setLights(const FrameInput& input) {
 }
 
 void Renderer::Impl::setSignals(const FrameSettings& settings) {
-    signals = signalsOf(Signal(settings.lighting.signal));
+    const auto signal = Signal(settings.lighting.signal);
+    signals = signalsOf(signal);
+    division = pathsOf(signal);
     targets.setSignals(signals.size());
+    if (!division)
+        return;
+    if (targets.paths.empty())
+        targets.paths = PathTargets(targets.size);
+    for (SignalTargets& of : targets.signals)
+        if (of.divisor.size() != targets.size)
+            of.divisor = GpuTexture("divisor", PixelFormat::RGBA32F, targets.size);
 }
 
 void Renderer::Impl::startStates(std::span<const FilterRun> runs) {
@@ -182,11 +192,29 @@ void Renderer::Impl::carrySamples(FrameContext& context, bool beside) {
 
 void Renderer::Impl::trace(const FrameContext& outer, const Surfaces& surfaces,
                            const GpuTexture& seeds, GpuTexture& (*raw)(SignalTargets&)) {
+    if (division) {
+        std::vector<GpuTexture*> results;
+        for (SignalTargets& signal : targets.signals)
+            results.push_back(&raw(signal));
+        FrameContext context = outer;
+        paths.run(context, *sceneGpu, {surfaces, seeds},
+                  {results, targets.rays, targets.paths, targets.counters}, *division);
+        return;
+    }
     for (std::size_t i = 0; i < signals.size(); ++i) {
         FrameContext context = outer.forSignal(signals.size() > 1 ? signals[i].name : "");
         lighting.run(context, *sceneGpu, {surfaces, seeds},
                      {raw(targets.signals[i]), targets.rays, targets.counters}, signals[i].rays);
     }
+}
+
+void Renderer::Impl::divide(FrameContext& context) {
+    if (!division)
+        return;
+    std::vector<GpuTexture*> divisors;
+    for (SignalTargets& signal : targets.signals)
+        divisors.push_back(&signal.divisor);
+    paths.divide(context, *sceneGpu, targets.surfaces, divisors, *division);
 }
 
 // Shades the gradient samples that forward projection has set beside the picture.
@@ -278,6 +306,7 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
     if (needs.samples)
         self.carrySamples(context, beside);
     self.surface.run(context, *self.sceneGpu, t.surfaces);
+    self.divide(context);
     if (needs.lambda)
         self.strata.run(context, {t.surfaces.guides, t.surfaces.slope},
                         {t.strataGuides, t.strataSlope});

@@ -63,7 +63,7 @@ struct HistoryCheckpoint {
     std::span<const SignalInfo> signals;
     std::vector<GpuTexture> images;
     std::array<std::optional<FilterHistory>, kFilterStates> filters; ///< of those that ran
-    std::optional<FrameData::Matrices> matrices;
+    std::optional<FrameData::View> view;
     std::optional<Pose> pose;
 
     std::size_t bytes() const; ///< on the device

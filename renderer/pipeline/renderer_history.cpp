@@ -42,7 +42,7 @@ HistoryCheckpoint Renderer::checkpoint() const {
     HistoryCheckpoint kept{.signals = impl_->signals,
                            .images = copiesOf(t.kept()),
                            .filters = {},
-                           .matrices = impl_->frame.previous(),
+                           .view = impl_->frame.previous(),
                            .pose = impl_->previousPose};
     for (std::size_t i = 0; i < kFilterStates; ++i) {
         if (!impl_->states[i].ran)
@@ -75,7 +75,7 @@ void Renderer::restore(const HistoryCheckpoint& kept) {
         }
         impl_->states[i].ran = ran;
     }
-    impl_->frame.setPrevious(kept.matrices);
+    impl_->frame.setPrevious(kept.view);
     impl_->previousPose = kept.pose;
 }
 

@@ -21,7 +21,8 @@ struct Renderer::Impl {
     Impl(ShaderLibrary& library, const GlInfo& gl)
         : shaders(library), software(gl.softwareRasterizer), timer(gl.softwareRasterizer),
           visibility(shaders), forwardProject(shaders), surface(shaders), lighting(shaders),
-          strata(shaders), composite(shaders), tonemap(shaders), reference(shaders) {
+          paths(shaders), strata(shaders), composite(shaders), tonemap(shaders),
+          reference(shaders) {
         programsOf(familyOf(Filter::Svgf)); // compiled before the first frame
     }
 
@@ -32,8 +33,10 @@ struct Renderer::Impl {
     FrameContext context() { return {.timer = timer, .uniforms = &frame.block()}; }
     enum class Needed { FrameAndFilter, Filter };
     void requireMemoryFor(glm::ivec2 size, Needed what) const;
-    /// Returns the factor of a signal: the albedo for all signals, since surfaces are diffuse.
-    const GpuTexture& demodulation(std::size_t) const { return targets.surfaces.albedo; }
+    /// Returns the factor of a signal: of light on white surfaces the albedo.
+    const GpuTexture& demodulation(std::size_t signal) const {
+        return division ? targets.signals.at(signal).divisor : targets.surfaces.albedo;
+    }
     static RanFilter ranFilterOf(const FilterSettings& settings);
     SignalFilter& programsOf(const FilterFamily& family);
     void begin(const FrameInput& input, const FrameSettings& settings);
@@ -43,6 +46,8 @@ struct Renderer::Impl {
     void startState(std::size_t state, const FilterFamily& family);
 
     void carrySamples(FrameContext& context, bool beside);
+    /// Makes what signals of paths are multiplied with in the end.
+    void divide(FrameContext& context);
     /// One sample of each signal on these surfaces, for each signal into `raw` of it.
     void trace(const FrameContext& context, const Surfaces& surfaces, const GpuTexture& seeds,
                GpuTexture& (*raw)(SignalTargets&));
@@ -52,6 +57,7 @@ struct Renderer::Impl {
     const GpuTexture& present(FrameContext& context, std::size_t state,
                               const FrameSettings& settings);
     void placeSurfaces(FrameContext& context, double seconds);
+    void shrinkRegularization();
 
     ShaderLibrary& shaders;
     bool software;
@@ -60,6 +66,7 @@ struct Renderer::Impl {
     ForwardProjectPass forwardProject;
     SurfacePass surface;
     LightingPass lighting;
+    PathPass paths;
     StrataPass strata;
     CompositePass composite;
     TonemapPass tonemap;
@@ -76,6 +83,7 @@ struct Renderer::Impl {
 
     bool samplesBeside = false; ///< gradient samples of the last frame are not in the picture
     std::span<const SignalInfo> signals = signalsOf(Signal::Both);
+    std::optional<PathPass::Division> division; ///< of paths; empty: light on white surfaces
     /// Of the last frame, by state.
     struct State {
         std::optional<RanFilter> ran;

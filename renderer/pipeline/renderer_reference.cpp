@@ -3,6 +3,8 @@
 
 #include "renderer/pipeline/renderer_impl.h"
 
+#include <cmath>
+
 namespace afterglow {
 
 // Moves the scene to another time, and the visibility samples with it.
@@ -37,6 +39,7 @@ void Renderer::beginReference(const FrameInput& seen, const FrameInput& world,
     self.visibility.run(context, *self.sceneGpu,
                         {t.framebuffer, t.ids, t.surfaces.visibility, t.seeds.current()});
     self.surface.run(context, *self.sceneGpu, t.surfaces);
+    self.divide(context);
     self.setLights(world);
     self.converging = Impl::Reference{settings, &t.surfaces};
     if (world.seconds != seen.seconds) {
@@ -47,6 +50,16 @@ void Renderer::beginReference(const FrameInput& seen, const FrameInput& world,
         signal.makeSums();
 }
 
+// Kaplanyan and Dachsbacher 2013, section 5: the bias vanishes as samples are added, slowly enough
+// for the variance to vanish as well.
+void Renderer::Impl::shrinkRegularization() {
+    if (!division)
+        return;
+    frame.uniforms.regularization = converging->settings.lighting.regularization *
+                                    std::pow(float(converging->samples + 1), -1.0f / 6.0f);
+    frame.upload();
+}
+
 void Renderer::addReferenceSamples(int count) {
     Impl& self = *impl_;
     if (!self.converging)
@@ -54,6 +67,7 @@ void Renderer::addReferenceSamples(int count) {
     RenderTargets& t = self.targets;
     FrameContext context = self.context();
     for (int i = 0; i < count; ++i) {
+        self.shrinkRegularization();
         self.trace(context, *self.converging->surfaces, t.seeds.current(),
                    [](SignalTargets& signal) -> GpuTexture& { return signal.raw.current(); });
         for (SignalTargets& signal : t.signals)

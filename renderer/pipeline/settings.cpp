@@ -159,6 +159,11 @@ const std::array kFields = std::to_array<Field>({
     {"lighting", "signalClamp", "Signal clamp",
      "Upper bound of each channel of the raw signal; gradient and filter see the same bound.",
      "radiance", "own choice", 1.0, 10000.0, true, {}, AFTERGLOW_FRAME_FIELD(lighting.signalClamp)},
+    {"lighting", "regularization", "Regularization",
+     "Least alpha of the second surface of a path: fewer fireflies, blurred reflections in it. 0: off. "
+     "In references it falls with the number of samples.",
+     "GGX alpha", "Kaplanyan and Dachsbacher 2013", 0.0, 1.0, false, {},
+     AFTERGLOW_FRAME_FIELD(lighting.regularization)},
     {"lighting", "gradientSamples", "Gradient samples",
      "Merged into the raw signal, in place of a ninth of its new samples, or traced beside it by "
      "a ninth more rays, so that the raw signal is the same whatever the filter.",

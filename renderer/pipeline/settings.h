@@ -19,8 +19,9 @@ enum class SamplePlacement { Merged, Extra };
 
 struct LightingSettings {
     int signal = int(Signal::Both);
-    float aoRadius = 0.04f;     ///< in extents of the scene
-    float signalClamp = 100.0f; ///< radiance
+    float aoRadius = 0.04f;       ///< in extents of the scene
+    float signalClamp = 100.0f;   ///< radiance
+    float regularization = 0.25f; ///< least alpha (GGX) of the second surface of a path
     int gradientSamples = int(SamplePlacement::Merged);
 };
 

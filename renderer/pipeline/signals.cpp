@@ -13,6 +13,10 @@ namespace {
 constexpr SignalInfo kShadows{"shadows", {.shadows = true, .ambientOcclusion = false}};
 constexpr SignalInfo kAo{"ao", {.shadows = false, .ambientOcclusion = true}};
 constexpr SignalInfo kBoth{"both", {.shadows = true, .ambientOcclusion = true}};
+constexpr LightingPass::Rays kNoRays{.shadows = false, .ambientOcclusion = false};
+constexpr std::array kWholePaths{SignalInfo{"path", kNoRays}};
+constexpr std::array kLobes{SignalInfo{"diffuse", kNoRays}, SignalInfo{"specular", kNoRays}};
+constexpr std::array kSegments{SignalInfo{"direct", kNoRays}, SignalInfo{"indirect", kNoRays}};
 constexpr std::array kShadowsAlone{kShadows};
 constexpr std::array kAoAlone{kAo};
 constexpr std::array kTogether{kBoth};
@@ -23,10 +27,15 @@ struct Row {
     Signal division;
     std::string_view name;
     std::span<const SignalInfo> signals;
+    std::optional<PathPass::Division> paths{};
 };
-constexpr std::array kRows{
-    Row{Signal::Shadows, "shadows", kShadowsAlone}, Row{Signal::AmbientOcclusion, "ao", kAoAlone},
-    Row{Signal::Both, "both", kTogether}, Row{Signal::Separate, "separate", kApart}};
+constexpr std::array kRows{Row{Signal::Shadows, "shadows", kShadowsAlone},
+                           Row{Signal::AmbientOcclusion, "ao", kAoAlone},
+                           Row{Signal::Both, "both", kTogether},
+                           Row{Signal::Separate, "separate", kApart},
+                           Row{Signal::Path, "path", kWholePaths, PathPass::Division::Whole},
+                           Row{Signal::Split, "split", kLobes, PathPass::Division::Lobes},
+                           Row{Signal::Bounce, "bounce", kSegments, PathPass::Division::Segments}};
 constexpr auto kSignals = [] {
     std::array<Signal, kRows.size()> all{};
     for (std::size_t i = 0; i < kRows.size(); ++i)
@@ -46,9 +55,15 @@ std::span<const SignalInfo> signalsOf(Signal division) {
     return kRows[std::size_t(division)].signals;
 }
 
+std::optional<PathPass::Division> pathsOf(Signal division) {
+    return kRows[std::size_t(division)].paths;
+}
+
 bool seesSurroundings(Signal division) {
-    return std::ranges::any_of(
-        signalsOf(division), [](const SignalInfo& signal) { return signal.rays.ambientOcclusion; });
+    return pathsOf(division).has_value() ||
+           std::ranges::any_of(signalsOf(division), [](const SignalInfo& signal) {
+               return signal.rays.ambientOcclusion;
+           });
 }
 
 std::span<const Signal> allSignals() {

@@ -19,9 +19,11 @@ void FrameData::begin(const Camera& camera, glm::ivec2 size) {
     u.size = size;
     u.strata = strataOf(size);
     u.historyValid = previous_ ? 1u : 0u;
-    const Matrices before = previous_.value_or(Matrices{u.clipFromWorld, u.viewFromWorld});
+    const View before =
+        previous_.value_or(View{u.clipFromWorld, u.viewFromWorld, u.cameraPosition});
     u.previousClipFromWorld = before.clipFromWorld;
     u.previousViewFromWorld = before.viewFromWorld;
+    u.previousCameraPosition = before.cameraPosition;
     upload();
 }
 
@@ -30,7 +32,7 @@ void FrameData::upload() {
 }
 
 void FrameData::end() {
-    previous_ = Matrices{uniforms.clipFromWorld, uniforms.viewFromWorld};
+    previous_ = View{uniforms.clipFromWorld, uniforms.viewFromWorld, uniforms.cameraPosition};
 }
 
 } // namespace afterglow

@@ -30,15 +30,16 @@ public:
     void forget() { previous_.reset(); }
 
     /// The part of a frame that the next one needs; empty: nothing.
-    struct Matrices {
+    struct View {
         glm::mat4 clipFromWorld, viewFromWorld;
+        glm::vec3 cameraPosition;
     };
-    const std::optional<Matrices>& previous() const { return previous_; }
-    void setPrevious(const std::optional<Matrices>& previous) { previous_ = previous; }
+    const std::optional<View>& previous() const { return previous_; }
+    void setPrevious(const std::optional<View>& previous) { previous_ = previous; }
 
 private:
     GpuBuffer buffer_;
-    std::optional<Matrices> previous_;
+    std::optional<View> previous_;
 };
 
 } // namespace afterglow

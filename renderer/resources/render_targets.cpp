@@ -42,7 +42,7 @@ void SignalTargets::makeSums() {
 }
 
 std::vector<const GpuTexture*> SignalTargets::all() const {
-    return madeOf({&raw.current(), &raw.previous(), &sampleRaw, &sum, &lost, &converged});
+    return madeOf({&raw.current(), &raw.previous(), &sampleRaw, &divisor, &sum, &lost, &converged});
 }
 
 FilterTargets::FilterTargets(glm::ivec2 size)
@@ -111,13 +111,14 @@ std::vector<const GpuTexture*> RenderTargets::all() const {
             append(textures, seen->all());
     for (const SignalTargets& signal : signals)
         append(textures, signal.all());
+    append(textures, paths.all());
     for (const FilterTargets& filter : filters)
         append(textures, filter.all());
     return textures;
 }
 
 std::size_t RenderTargets::bytes() const {
-    std::size_t sumOfBytes = rays.bytes();
+    std::size_t sumOfBytes = rays.bytes() + paths.bufferBytes();
     for (const GpuTexture* texture : all())
         sumOfBytes += texture->bytes();
     return sumOfBytes;

@@ -3,6 +3,7 @@
 
 #include "renderer/gl/framebuffer.h"
 #include "renderer/resources/image_set.h"
+#include "renderer/resources/path_targets.h"
 #include "renderer/resources/ray_list.h"
 #include "renderer/resources/surfaces.h"
 
@@ -27,6 +28,7 @@ struct SignalTargets {
 
     History raw;
     GpuTexture sampleRaw; ///< RGBA32F, strata: of samples beside the picture; empty without any
+    GpuTexture divisor;   ///< RGBA32F: what it is multiplied with in the end; empty: by the albedo
     // Of a reference; empty before the first one.
     GpuTexture sum;       ///< RGBA32F: of its samples
     GpuTexture lost;      ///< RGBA32F: what rounding has taken from the sum
@@ -70,7 +72,8 @@ struct RenderTargets {
     GpuTexture previousVisibility, previousGuides; ///< of the frame before
     History seeds;
     std::vector<SignalTargets> signals;
-    RayList rays; ///< of the kind that is traced
+    RayList rays;      ///< of the kind that is traced
+    PathTargets paths; ///< empty before the first path
 
     GpuTexture owners;  ///< R32UI, strata: keys of forward projection
     GpuTexture claims;  ///< RG32UI, strata: what became of the samples before they were merged

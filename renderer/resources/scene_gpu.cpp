@@ -124,6 +124,8 @@ void SceneGpu::collectEmitters(const Scene& scene, const Pose& rest) {
             const Material& material = scene.materials[instance.material];
             const Mesh& mesh = scene.meshes[instance.mesh];
             const glm::mat4& m = rest.worldFromNode[instance.node];
+            records_[index].firstLightTriangle = std::uint32_t(emitters_.size());
+            // Those without power too: a hit finds its triangle by its number.
             for (const glm::uvec3& t : mesh.triangles) {
                 Emitter emitter{instance.node,
                                 std::uint32_t(slot),
@@ -138,18 +140,17 @@ void SceneGpu::collectEmitters(const Scene& scene, const Pose& rest) {
                     0.5f * glm::length(glm::cross(world(1) - world(0), world(2) - world(0)));
                 const double power = double(luminance(material.emission)) * area *
                                      (material.doubleSided ? 2.0 : 1.0);
-                if (power <= 0.0)
-                    continue;
                 emitters_.push_back(emitter);
                 powers.push_back(power);
                 total += power;
             }
         }
+    shinesAtAll_ = total > 0.0;
     double sum = 0.0;
-    for (std::size_t i = 0; i < emitters_.size(); ++i) {
+    for (std::size_t i = 0; shinesAtAll_ && i < emitters_.size(); ++i) {
         const double before = sum / total;
-        sum += powers[i];
-        emitters_[i].cumulative = i + 1 == emitters_.size() ? 1.0f : float(sum / total);
+        sum += powers[i]; // in the end it is the total, to the bit
+        emitters_[i].cumulative = float(sum / total);
         emitters_[i].probability = float(sum / total - before);
     }
     lightTriangles = TexelBuffer("light triangles", emitters_.size() * sizeof(gpu::LightTriangle));

@@ -39,7 +39,10 @@ public:
     const SceneBvh& bvh() const { return bvh_; }
     double bvhBuildMilliseconds() const { return bvhBuildMilliseconds_; }
     std::size_t triangleCount() const { return triangleCount_; } ///< over all instances
-    std::uint32_t lightTriangleCount() const { return std::uint32_t(lights_.size()); }
+    /// Returns the number of emissive triangles; 0 if none has power.
+    std::uint32_t lightTriangleCount() const {
+        return shinesAtAll_ ? std::uint32_t(lights_.size()) : 0u;
+    }
     float extent() const { return extent_; } ///< diagonal of the scene's box at rest, meters
 
     TexelBuffer vertices, triangles, instances, materials; ///< shared/scene.h
@@ -66,6 +69,7 @@ private:
     float extent_ = 1.0f;
     std::size_t triangleCount_ = 0;
     std::size_t lightCount_ = 0;
+    bool shinesAtAll_ = false;
     GpuBuffer vertexBuffer_, indexBuffer_;
     std::vector<std::uint32_t> firstTriangle_, firstIndexOfMesh_; ///< by mesh
     std::vector<gpu::InstanceRecord> records_;

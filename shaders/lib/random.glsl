@@ -16,6 +16,10 @@ const uint kDimensionLightU = 1u;
 const uint kDimensionLightV = 2u;
 const uint kDimensionAoU = 3u;
 const uint kDimensionAoV = 4u;
+const uint kDimensionBounceU = 3u; // no path has an ambient occlusion ray
+const uint kDimensionBounceV = 4u;
+const uint kDimensionLobe = 5u;
+const uint kDimensionBounceLight = 6u; // 6 to 8: as 0 to 2, seen from the second surface
 
 // Digits of `index` in a prime base, mirrored at the point. The division is by multiplication:
 // exact for index < 2^18, as (index + 1/2) / base is never nearer to an integer than 1 / (2 base).
@@ -31,8 +35,11 @@ float radicalInverse(uint index, float base, int digits) {
     return sum;
 }
 
-// Halton 1960: coordinate `dimension` of point `index`. The digits suffice for 18 bits.
+// Halton 1960: coordinate `dimension` of point `index`. The digits suffice for 18 bits. Dimensions
+// 6 to 8 have the bases of 0 to 2 again: they form no integrand with those.
 float halton(uint index, uint dimension) {
+    if (dimension >= kDimensionBounceLight)
+        dimension -= kDimensionBounceLight;
     if (dimension == 0u)
         return float(bitfieldReverse(index) >> 8) * (1.0 / 16777216.0);
     if (dimension == 1u)
@@ -41,7 +48,9 @@ float halton(uint index, uint dimension) {
         return radicalInverse(index, 5.0, 8);
     if (dimension == 3u)
         return radicalInverse(index, 7.0, 7);
-    return radicalInverse(index, 11.0, 6);
+    if (dimension == 4u)
+        return radicalInverse(index, 11.0, 6);
+    return radicalInverse(index, 13.0, 5);
 }
 
 // A number in [0, 1). The run's seed moves the tile and the sequence, in each dimension on its own.

@@ -20,9 +20,11 @@ struct FrameUniforms {
     uint seed;           // of the whole run
     uint historyValid;   // 0 on the first frame, after a resize, a reset or a scene change
     uint lightTriangleCount;
-    float aoRadius;    // meters
-    float signalClamp; // upper bound of each channel of the raw signal, radiance
-    uint sampleIndex;  // replaces the frame number in new seeds
+    float aoRadius;              // meters
+    float signalClamp;           // upper bound of each channel of the raw signal, radiance
+    uint sampleIndex;            // replaces the frame number in new seeds
+    float regularization;        // least alpha of the second surface of a path
+    vec3 previousCameraPosition; // that of this frame if there is no frame before
     float unused0;
 };
 

@@ -19,8 +19,8 @@ struct InstanceRecord {
     vec4 previousWorldFromObject[3]; // one frame before
     uint firstTriangle;              // index of the mesh's first triangle in `triangles`
     uint material;
-    uint light; // slot, or kNoLight
-    uint unused0;
+    uint light;              // slot, or kNoLight
+    uint firstLightTriangle; // of a light: its first triangle's index in `lightTriangles`
 };
 const uint kTexelsPerInstance = 7u;
 const uint kNoLight = 0xffffffffu;

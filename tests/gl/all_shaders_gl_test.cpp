@@ -49,6 +49,12 @@ std::vector<Variant> allVariants() {
             defines = {{{"SHADOWS", "1"}, {"FIRST", "1"}},
                        {{"AMBIENT_OCCLUSION", "1"}},
                        {{"AMBIENT_OCCLUSION", "1"}, {"FIRST", "1"}}};
+        if (name == "lighting/trace.comp")
+            for (const char* kind : {"SHADOWS", "PENDING"})
+                defines.push_back({{kind, "1"}, {"SIGNALS", "2"}});
+        if (name.starts_with("lighting/path_"))
+            defines = {
+                {{"PATH_DIVISION", "0"}}, {{"PATH_DIVISION", "1"}}, {{"PATH_DIVISION", "2"}}};
         if (name == "bench/rays.comp")
             defines = {{{"PRIMARY", "1"}}, {{"BOUNCE", "1"}}, {{"BOUNCE_SHADOW", "1"}}};
         if (name == "bench/trace.comp")

@@ -88,7 +88,8 @@ const std::vector<SharedStruct>& sharedStructs() {
                       MEMBER(previousViewFromWorld), MEMBER(cameraPosition), MEMBER(tanHalfFov),
                       MEMBER(ambient), MEMBER(extent), MEMBER(size), MEMBER(strata), MEMBER(frame),
                       MEMBER(seed), MEMBER(historyValid), MEMBER(lightTriangleCount),
-                      MEMBER(aoRadius), MEMBER(signalClamp), MEMBER(sampleIndex), MEMBER(unused0)),
+                      MEMBER(aoRadius), MEMBER(signalClamp), MEMBER(sampleIndex),
+                      MEMBER(regularization), MEMBER(previousCameraPosition), MEMBER(unused0)),
     };
     return structs;
 }

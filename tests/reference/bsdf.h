@@ -112,9 +112,9 @@ public:
     AlbedoTable() {
         for (int r = 0; r < kSize; ++r)
             for (int c = 0; c < kSize; ++c) {
-                const double roughness = (r + 0.5) / kSize;
-                values_[r][c] =
-                    albedoOverGrid(std::max(roughness * roughness, 1e-3), (c + 0.5) / kSize, kSize);
+                const double roughness = double(r) / (kSize - 1);
+                values_[r][c] = albedoOverGrid(std::max(roughness * roughness, 1e-3),
+                                               std::max(double(c) / (kSize - 1), 1e-3), kSize);
             }
     }
 
@@ -122,8 +122,8 @@ public:
 
     /// Bilinear, clamped to the centers of the border.
     SplitAlbedo at(double roughness, double cv) const {
-        const double x = std::clamp(roughness * kSize - 0.5, 0.0, kSize - 1.0);
-        const double y = std::clamp(cv * kSize - 0.5, 0.0, kSize - 1.0);
+        const double x = std::clamp(roughness, 0.0, 1.0) * (kSize - 1.0);
+        const double y = std::clamp(cv, 0.0, 1.0) * (kSize - 1.0);
         const int i = std::min(int(x), kSize - 2), j = std::min(int(y), kSize - 2);
         SplitAlbedo out;
         for (const int di : {0, 1})

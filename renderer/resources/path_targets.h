@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "renderer/resources/ray_list.h"
+#include "renderer/gl/texture.h"
+
+#include <array>
+
+namespace afterglow {
+
+/// What a path leaves for its next step. Nothing of it outlives a frame.
+struct PathTargets {
+    PathTargets() = default;
+    explicit PathTargets(glm::ivec2 size);
+
+    bool empty() const { return weights[0].size().x == 0; }
+    std::vector<const GpuTexture*> all() const;
+    std::size_t bufferBytes() const { return empty() ? 0 : bounces.bytes() + hits.bytes(); }
+
+    RayList bounces;  ///< the second segments
+    TexelBuffer hits; ///< of those: instance, triangle, barycentrics
+    // Of two signals the second ones are used too.
+    std::array<GpuTexture, 2> weights; ///< RGBA32F: signal a radiance, density in the first
+    std::array<GpuTexture, 2> pending; ///< RGBA32F: signal if the last shadow ray is not blocked
+};
+
+} // namespace afterglow
