@@ -140,11 +140,16 @@ int readUntil(const JsonReader& json, int frame, int frames) {
 /// Reads an event. The key that names its target tells its kind.
 TimelineEvent readEvent(const JsonReader& json, int frame, int frames) {
     if (json.find("node")) {
-        json.expectKeys({"frame", "until", "node", "by"});
-        return NodeMotion{.frame = frame,
+        json.expectKeys({"frame", "until", "node", "by", "turn"});
+        NodeMotion motion{.frame = frame,
                           .until = readUntil(json, frame, frames),
-                          .node = json.at("node").text(),
-                          .by = readPoint(json.at("by"))};
+                          .node = json.at("node").text()};
+        const auto turn = json.find("turn");
+        if (turn)
+            motion.turn = float(turn->number(-179.0, 179.0)); // the shorter way round is meant
+        if (!turn || json.find("by"))
+            motion.by = readPoint(json.at("by"));
+        return motion;
     }
     if (const auto camera = json.find("camera")) {
         json.expectKeys({"frame", "until", "camera"});
@@ -216,7 +221,10 @@ Json withSpan(int frame, int until) {
 Json describe(const NodeMotion& motion) {
     Json json = withSpan(motion.frame, motion.until);
     json["node"] = motion.node;
-    json["by"] = listOf(motion.by);
+    if (motion.by != glm::vec3(0.0f) || motion.turn == 0.0f)
+        json["by"] = listOf(motion.by);
+    if (motion.turn != 0.0f)
+        json["turn"] = shortest(motion.turn);
     return json;
 }
 

@@ -26,6 +26,11 @@ public:
         key(node, Track::Path::Rotation, frame, until,
             {rotation.x, rotation.y, rotation.z, rotation.w});
     }
+    /// Returns how the node is turned after all motions so far.
+    glm::quat rotationOf(std::uint32_t node) {
+        const glm::vec4 q = trackOf(node, Track::Path::Rotation).values.back();
+        return {q.w, q.x, q.y, q.z};
+    }
     /// Returns the place of the node after all motions so far.
     glm::vec3 translationOf(std::uint32_t node) {
         return glm::vec3(trackOf(node, Track::Path::Translation).values.back());
@@ -112,7 +117,12 @@ Scene Timeline::staged(Scene scene, double rate, bool animated, std::string_view
         } else if (const auto* motion = std::get_if<NodeMotion>(&event)) {
             const auto node =
                 std::uint32_t(indexOf(scene.nodes, motion->node, "node" + of, owner, nameOf));
-            stage.move(node, motion->frame, motion->until, stage.translationOf(node) + motion->by);
+            const auto turned = glm::angleAxis(glm::radians(motion->turn), glm::vec3(0, 1, 0));
+            if (motion->by != glm::vec3(0.0f))
+                stage.move(node, motion->frame, motion->until,
+                           stage.translationOf(node) + motion->by);
+            if (motion->turn != 0.0f)
+                stage.turn(node, motion->frame, motion->until, stage.rotationOf(node) * turned);
         } else {
             const auto& move = std::get<CameraMove>(event);
             const std::uint32_t node = scene.cameras.at(0).node;

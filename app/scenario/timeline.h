@@ -27,11 +27,12 @@ struct LightEvent {
     bool operator==(const LightEvent&) const = default;
 };
 
-/// A node of the scene glides, at constant speed.
+/// A node of the scene glides and turns, at constant speed.
 struct NodeMotion {
     int frame = 0, until = 1;
     std::string node;
     glm::vec3 by{0.0f}; ///< meters, in its parent's space, from where it was
+    float turn = 0.0f;  ///< degrees about its own vertical axis, in (-180, 180)
 
     bool operator==(const NodeMotion&) const = default;
 };

@@ -56,8 +56,8 @@ struct PathPass::Call {
     }
 };
 
-void PathPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs& in,
-                   const Outputs& out, Division division) {
+void PathPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs& in, const Outputs& out,
+                   Division division) {
     const Call call{frame, scene, in, out, division, specularAlbedo()};
     const auto scope = frame.pass("paths", {out.raw.front(), out.raw.back()});
     light(call);
@@ -152,8 +152,7 @@ void PathPass::bounce(const Call& call) {
 void PathPass::divide(FrameContext& frame, const SceneGpu& scene, const Surfaces& surfaces,
                       std::span<GpuTexture* const> divisors, Division division) {
     const auto scope = frame.pass("divisors", {divisors.front(), divisors.back()});
-    const std::vector<Binding> reads =
-        Call::surfaces(frame, scene, surfaces, specularAlbedo());
+    const std::vector<Binding> reads = Call::surfaces(frame, scene, surfaces, specularAlbedo());
     std::vector<Binding> writes{{"divisor0", *divisors[0]}};
     if (divisors.size() > 1)
         writes.emplace_back("divisor1", *divisors[1]);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "renderer/resources/ray_list.h"
 #include "renderer/gl/texture.h"
+#include "renderer/resources/ray_list.h"
 
 #include <array>
 

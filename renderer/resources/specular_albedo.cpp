@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kSteps = 32; // of the quadrature, along each random number
 
-/// Returns the half vector that two numbers in [0, 1) name among those that are visible from `view`,
-/// which lies in the xz plane. Heitz 2018, "Sampling the GGX Distribution of Visible Normals".
+/// Returns the half vector that two numbers in [0, 1) name among those that are visible from
+/// `view`, which lies in the xz plane. Heitz 2018, "Sampling the GGX Distribution of Visible
+/// Normals".
 glm::dvec3 visibleNormal(glm::dvec3 view, double alpha, double u, double v) {
     const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * view.x, 0.0, view.z));
     const glm::dvec3 t1(0.0, 1.0, 0.0); // orthogonal to it and to z

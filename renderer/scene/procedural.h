@@ -21,7 +21,7 @@ std::vector<SceneInfo> proceduralScenes();
 Scene makeProceduralScene(std::string_view name);
 
 // The scenes, one function each. All lights shine from their front only and are named after their
-// nodes; all materials are diffuse.
+// nodes.
 
 /// Makes the Cornell box, 0.556 m wide, 0.549 m high, 0.559 m deep, open towards +Z at z = 0.
 /// Lights: "key", warm, in the ceiling, and "fill", cool and smaller, on the right wall.
@@ -33,6 +33,14 @@ Scene makeCornell();
 /// sees nothing. The node "mover" floats through the first bays, through the shadow of a column, in
 /// a loop of 12 s.
 Scene makeHall();
+
+/// Makes two rooms, x in [-2.5, 2.5], 2.8 m high, with a doorway between them (z = -4.0 to -4.2).
+/// The camera is in the first, which has a polished floor of roughness 0.12, spheres of gold, glaze
+/// and mirror, and the lights "key", in the ceiling, and "sign", on the far wall, which the floor
+/// mirrors. The light "next room" reaches it only from surfaces of the second room. The node "door"
+/// shuts the doorway and slides away by 1.2 m along X; the node "screen" is red where it faces +Z
+/// and white behind, and turns. No ambient light.
+Scene makeGallery();
 
 /// Makes a scene of fewer than 100 triangles: a floor of 4 x 4 m at y = 0, a wall at z = -2, a box
 /// and the light "key", 1 x 1 m at y = 2.5, centered, facing down, of radiance 12.

@@ -28,7 +28,7 @@ constexpr int kArchCells = 28;
 
 /// The static parts, one mesh a material.
 struct Parts {
-    Mesh stone, wall, vault, marble, bronze, clay, glaze, wood;
+    Mesh stone, wall, vault, marble, bronze, clay, glaze, wood, gold, water;
     Mesh tiles[4];
 };
 
@@ -213,6 +213,22 @@ void addThings(Parts& parts) {
     addSphere(parts.glaze, {-2.17f, 0.78f, -3.37f}, 0.28f, 48);
     addTorus(parts.bronze, {-1.4f, 0.1f, -4.6f}, 0.35f, 0.1f, 64, 20);
 
+    // A basin in the nave: a bowl of bronze on a foot of marble, filled to its rim.
+    const glm::dvec3 basin(-0.9, 0.0, -8.4);
+    addTurned(
+        parts.marble, basin,
+        [](double, double v) { return glm::dvec2(0.42 - 0.24 * std::sin(kPi * v), 0.5 * v); }, 64,
+        16);
+    addTurned(
+        parts.bronze, basin,
+        [](double, double v) { return glm::dvec2(1.05 * std::sqrt(v), 0.48 + 0.27 * v * v); }, 96,
+        24);
+    addTorus(parts.bronze, {-0.9f, 0.75f, -8.4f}, 1.05f, 0.045f, 96, 14);
+    addTurned(
+        parts.water, basin, [](double, double v) { return glm::dvec2(1.04 * (1.0 - v), 0.745); },
+        96, 1);
+    addSphere(parts.gold, {2.35f, 0.2f, -2.0f}, 0.2f, 64);
+
     // Jars along the right aisle and the nave.
     for (int i = 0; i < 6; ++i) {
         const glm::dvec3 foot(i % 2 ? 5.1 : 1.9, 0.0, -8.0 - 3.1 * i);
@@ -241,8 +257,9 @@ void addMover(SceneBuilder& scene) {
         const glm::vec3 p(0.46 * std::sin(turn), 0.0, 0.46 * std::cos(turn));
         addBox(cubes, p - 0.1f, p + 0.1f);
     }
-    scene.add(std::move(ball), scene.material("mover ball", {0.75f, 0.72f, 0.66f}), mover);
-    scene.add(std::move(ring), scene.material("mover ring", {0.62f, 0.42f, 0.14f}), mover);
+    scene.add(std::move(ball), scene.material("mover ball", {0.75f, 0.72f, 0.66f}, 0.25f), mover);
+    scene.add(std::move(ring), scene.material("mover ring", {0.95f, 0.68f, 0.30f}, 0.2f, 1.0f),
+              mover);
     scene.add(std::move(cubes), scene.material("mover cubes", {0.62f, 0.13f, 0.09f}), mover);
 
     // A loop out of the left aisle, between the columns at z = 2 and z = -2 (the middle of the bay
@@ -345,21 +362,24 @@ Scene makeHall() {
     addLights(scene, parts);
 
     const std::uint32_t still = scene.node("hall");
-    const auto put = [&](Mesh& mesh, const char* name, glm::vec3 color) {
-        scene.add(std::move(mesh), scene.material(name, color), still);
+    const auto put = [&](Mesh& mesh, const char* name, glm::vec3 color, float roughness = 1.0f,
+                         float metallic = 0.0f) {
+        scene.add(std::move(mesh), scene.material(name, color, roughness, metallic), still);
     };
     put(parts.stone, "stone", {0.68f, 0.62f, 0.52f});
     put(parts.wall, "wall", {0.62f, 0.55f, 0.46f});
     put(parts.vault, "vault", {0.55f, 0.55f, 0.56f});
-    put(parts.marble, "marble", {0.78f, 0.77f, 0.74f});
-    put(parts.bronze, "bronze", {0.45f, 0.28f, 0.12f});
+    put(parts.marble, "marble", {0.78f, 0.77f, 0.74f}, 0.3f);
+    put(parts.bronze, "bronze", {0.70f, 0.45f, 0.20f}, 0.3f, 1.0f);
+    put(parts.gold, "gold", {1.0f, 0.78f, 0.34f}, 0.15f, 1.0f);
+    put(parts.water, "water", {0.02f, 0.035f, 0.04f}, 0.02f);
     put(parts.clay, "clay", {0.62f, 0.22f, 0.13f});
-    put(parts.glaze, "glaze", {0.10f, 0.26f, 0.42f});
-    put(parts.wood, "wood", {0.30f, 0.19f, 0.11f});
-    put(parts.tiles[0], "tile light a", {0.62f, 0.58f, 0.51f});
-    put(parts.tiles[1], "tile light b", {0.55f, 0.51f, 0.45f});
-    put(parts.tiles[2], "tile dark a", {0.34f, 0.31f, 0.28f});
-    put(parts.tiles[3], "tile dark b", {0.28f, 0.25f, 0.23f});
+    put(parts.glaze, "glaze", {0.10f, 0.26f, 0.42f}, 0.12f);
+    put(parts.wood, "wood", {0.30f, 0.19f, 0.11f}, 0.6f);
+    put(parts.tiles[0], "tile light a", {0.62f, 0.58f, 0.51f}, 0.22f);
+    put(parts.tiles[1], "tile light b", {0.55f, 0.51f, 0.45f}, 0.22f);
+    put(parts.tiles[2], "tile dark a", {0.34f, 0.31f, 0.28f}, 0.16f);
+    put(parts.tiles[3], "tile dark b", {0.28f, 0.25f, 0.23f}, 0.16f);
 
     addMover(scene);
     // A little right of the middle, at the height of the eyes, looking slightly left and up.

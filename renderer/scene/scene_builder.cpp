@@ -11,6 +11,14 @@ std::uint32_t SceneBuilder::material(std::string name, glm::vec3 baseColor) {
     return std::uint32_t(scene_.materials.size() - 1);
 }
 
+std::uint32_t SceneBuilder::material(std::string name, glm::vec3 baseColor, float roughness,
+                                     float metallic) {
+    const std::uint32_t index = material(std::move(name), baseColor);
+    scene_.materials[index].roughness = roughness;
+    scene_.materials[index].metallic = metallic;
+    return index;
+}
+
 std::uint32_t SceneBuilder::glow(std::string name, glm::vec3 radiance) {
     const std::uint32_t index = material(std::move(name), glm::vec3(0.0f));
     scene_.materials[index].emission = radiance;

@@ -13,8 +13,11 @@ class SceneBuilder {
 public:
     explicit SceneBuilder(std::string name) { scene_.name = std::move(name); }
 
-    /// Adds a diffuse material.
+    /// Adds a rough dielectric.
     std::uint32_t material(std::string name, glm::vec3 baseColor);
+    /// Adds a material of this roughness, and in part or all of metal.
+    std::uint32_t material(std::string name, glm::vec3 baseColor, float roughness,
+                           float metallic = 0.0f);
     /// Adds a material that only shines, from its front.
     std::uint32_t glow(std::string name, glm::vec3 radiance);
     std::uint32_t node(std::string name, glm::vec3 translation = glm::vec3(0.0f), int parent = -1);

@@ -18,8 +18,8 @@ struct Bsdf {
     vec3 normal, geometric, view; // unit length, on one side
     vec3 diffuse, specular;       // albedos of the two lobes
     vec3 f0;
-    float alpha;    // of GGX
-    float cosView;  // normal . view
+    float alpha;     // of GGX
+    float cosView;   // normal . view
     float pSpecular; // the probability with which a direction is of the specular lobe
 };
 
@@ -29,9 +29,10 @@ vec2 specularTerms(float roughness, float cosView) {
     vec2 place = clamp(vec2(roughness, cosView), 0.0, 1.0) * (float(kAlbedoTableSize) - 1.0);
     ivec2 low = ivec2(place), high = min(low + 1, int(kAlbedoTableSize) - 1);
     vec2 t = place - vec2(low);
-    return mix(mix(fetch(specularAlbedo, low).xy, fetch(specularAlbedo, ivec2(high.x, low.y)).xy, t.x),
-               mix(fetch(specularAlbedo, ivec2(low.x, high.y)).xy, fetch(specularAlbedo, high).xy, t.x),
-               t.y);
+    return mix(
+        mix(fetch(specularAlbedo, low).xy, fetch(specularAlbedo, ivec2(high.x, low.y)).xy, t.x),
+        mix(fetch(specularAlbedo, ivec2(low.x, high.y)).xy, fetch(specularAlbedo, high).xy, t.x),
+        t.y);
 }
 
 // `least` is the least alpha that a surface is taken to have.
@@ -102,8 +103,7 @@ vec3 sampleDirection(Bsdf b, vec3 tangent, float lobe, vec2 u) {
         vec3 t2 = cross(stretched, t1);
         float s = 0.5 * (1.0 + stretched.z);
         disk.y = (1.0 - s) * sqrt(max(0.0, 1.0 - disk.x * disk.x)) + s * disk.y;
-        vec3 bulge = disk.x * t1 + disk.y * t2 +
-                     sqrt(max(0.0, 1.0 - dot(disk, disk))) * stretched;
+        vec3 bulge = disk.x * t1 + disk.y * t2 + sqrt(max(0.0, 1.0 - dot(disk, disk))) * stretched;
         vec3 middle = normalize(vec3(b.alpha * bulge.xy, max(0.0, bulge.z)));
         local = 2.0 * dot(view, middle) * middle - view;
     } else {

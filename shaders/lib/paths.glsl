@@ -51,8 +51,8 @@ Lobes sampleDirect(Bsdf b, vec3 origin, vec3 u, bool mis, out Ray ray) {
     Scattering s = scatter(b, direction);
     if (density <= 0.0 || s.pdf <= 0.0)
         return sent;
-    vec3 arriving = light.emission * (dot(b.normal, direction) / density *
-                                      (mis ? misWeight(density, s.pdf) : 1.0));
+    vec3 arriving = light.emission *
+                    (dot(b.normal, direction) / density * (mis ? misWeight(density, s.pdf) : 1.0));
     sent = Lobes(s.diffuse * arriving, s.specular * arriving);
     bool matters = luminance(sent.diffuse + sent.specular) > 0.0;
     ray = Ray(origin, direction, matters ? distance * kShadowEnd : -1.0);

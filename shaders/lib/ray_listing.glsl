@@ -49,8 +49,7 @@ void listRay(Ray ray, ivec2 pixel) {
         int texel = int((segment * kSegmentRays + before) * kTexelsPerRay);
         imageStore(rays, texel, floatBitsToUint(vec4(ray.origin, ray.tMax)));
         imageStore(rays, texel + 1,
-                   uvec4(floatBitsToUint(ray.direction),
-                         uint(pixel.x) | (uint(pixel.y) << 16u)));
+                   uvec4(floatBitsToUint(ray.direction), uint(pixel.x) | (uint(pixel.y) << 16u)));
     }
     if (lane == 0u) {
         imageStore(rayCounts, int(segment), uvec4(all, 0u, 0u, 0u));

@@ -1,10 +1,10 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 
-// The end of a path: what the second surface emits, and the light that it gets from one point on the
-// area lights. One invocation a ray of the list of path_scatter.comp, whose hits are there; lists
-// the shadow rays. Kaplanyan and Dachsbacher 2013, "Path Space Regularization for Holistic and
-// Robust Light Transport": the second surface is no smoother than frame.regularization.
+// The end of a path: what the second surface emits, and the light that it gets from one point on
+// the area lights. One invocation a ray of the list of path_scatter.comp, whose hits are there;
+// lists the shadow rays. Kaplanyan and Dachsbacher 2013, "Path Space Regularization for Holistic
+// and Robust Light Transport": the second surface is no smoother than frame.regularization.
 
 #include "lib/paths.glsl"
 #include "shared/bvh.h"
@@ -51,8 +51,7 @@ Hit hitAt(uvec4 found, vec3 direction) {
 vec3 emittedBy(Hit hit, vec3 origin, vec3 direction, float pdf) {
     uvec4 links = instanceLinks(hit.instance);
     if (links.z == kNoLight)
-        return uintBitsToFloat(
-                   fetchBuffer(materials, int(links.y * kTexelsPerMaterial) + 1)).rgb;
+        return uintBitsToFloat(fetchBuffer(materials, int(links.y * kTexelsPerMaterial) + 1)).rgb;
     int first = int((links.w + hit.triangle) * kTexelsPerLightTriangle);
     vec4 edge1 = uintBitsToFloat(fetchBuffer(lightTriangles, first + 1));
     uvec4 edge2 = fetchBuffer(lightTriangles, first + 2);
@@ -90,8 +89,8 @@ void main() {
             vec3 u = vec3(randomNumber(seed, kDimensionBounceLight),
                           randomNumber(seed, kDimensionBounceLight + 1u),
                           randomNumber(seed, kDimensionBounceLight + 2u));
-            Bsdf b = bsdfOf(hit.instance, hit.normal, hit.geometric, -direction,
-                            frame.regularization);
+            Bsdf b =
+                bsdfOf(hit.instance, hit.normal, hit.geometric, -direction, frame.regularization);
             Lobes lobes = sampleDirect(b, offsetOrigin(hit.position, hit.geometric), u, false, ray);
             sent = lobes.diffuse + lobes.specular;
         }

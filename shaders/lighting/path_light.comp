@@ -1,8 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 
-// The first light of a path: that of one point on the area lights, at the visible surface. Lists the
-// shadow rays, and makes the signals what they are if nothing is in the way.
+// The first light of a path: that of one point on the area lights, at the visible surface. Lists
+// the shadow rays, and makes the signals what they are if nothing is in the way.
 
 #include "lib/visible_point.glsl"
 
@@ -23,8 +23,7 @@ void main() {
         if (isSurface(p)) {
             uint seed = fetch(seeds, p).x;
             VisiblePoint x1 = visiblePoint(p, eyeOf(seed));
-            vec3 u = vec3(randomNumber(seed, kDimensionLight),
-                          randomNumber(seed, kDimensionLightU),
+            vec3 u = vec3(randomNumber(seed, kDimensionLight), randomNumber(seed, kDimensionLightU),
                           randomNumber(seed, kDimensionLightV));
             vec3 first, second;
             divisorsOf(x1.bsdf, first, second);
