@@ -23,6 +23,7 @@ struct FilterNeeds {
 struct FilterInput {
     const Surfaces& surfaces;
     const GpuTexture &previousVisibility, &previousGuides;
+    const GpuTexture& motion; ///< of the signal: of the surfaces, or of what they mirror
     const GpuTexture &samples, &strataGuides, &strataSlope; ///< as FilterNeeds asks for them
     const SignalTargets& signal; ///< the noise, of which gradients are taken
     const GpuTexture& newest;    ///< what is filtered: the signal, or what a filter made of it.

@@ -12,7 +12,7 @@ svgf::Image svgf::blendOf(const SvgfPlan& plan) {
 TemporalPass::Inputs svgf::temporalInputs(const FilterInput& in, FilterImages own) {
     return {in.newest,          in.surfaces.visibility, in.previousVisibility,
             in.surfaces.guides, in.previousGuides,      in.surfaces.slope,
-            in.surfaces.motion, own.previous(kColor),   own.previous(kMoments),
+            in.motion,          own.previous(kColor),   own.previous(kMoments),
             own[kLambda],       own[kLuminanceRange]};
 }
 

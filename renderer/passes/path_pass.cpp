@@ -97,8 +97,10 @@ void PathPass::scatter(const Call& call) {
     PathTargets& paths = call.out.paths;
     std::vector<Binding> writes = call.lists(paths.bounces);
     writes.emplace_back("weight0", paths.weights[0]);
-    if (call.isOfLobes())
+    if (call.isOfLobes()) {
         writes.emplace_back("weight1", paths.weights[1]);
+        writes.emplace_back("distances", paths.distances);
+    }
     shaders_.compute("lighting/path_scatter.comp", definesOf(call.division))
         .dispatch(call.size(), std::span<const Binding>(reads), writes);
     shaders_.compute("lighting/trace_closest.comp")
@@ -132,6 +134,7 @@ void PathPass::bounce(const Call& call) {
         reads.emplace_back("weight1", paths.weights[1]);
         writes.emplace_back("raw1", *call.out.raw[1]);
         writes.emplace_back("pending1", paths.pending[1]);
+        writes.emplace_back("distances", paths.distances);
     }
     shaders_.compute("lighting/path_bounce.comp", definesOf(call.division))
         .dispatch(call.size(), std::span<const Binding>(reads), writes);
@@ -158,6 +161,22 @@ void PathPass::divide(FrameContext& frame, const SceneGpu& scene, const Surfaces
         writes.emplace_back("divisor1", *divisors[1]);
     shaders_.compute("lighting/path_divisor.comp", definesOf(division))
         .dispatch(surfaces.size(), std::span<const Binding>(reads), writes);
+}
+
+void PathPass::reflect(FrameContext& frame, const SceneGpu& scene, const Surfaces& surfaces,
+                       const PathTargets& paths, GpuTexture& reflected) {
+    const auto scope = frame.pass("reflected motion", {&reflected});
+    shaders_.compute("lighting/reflected_motion.comp")
+        .dispatch(surfaces.size(),
+                  {frame.block(),
+                   {"visibility", surfaces.visibility},
+                   {"surface", surfaces.surface},
+                   {"guides", surfaces.guides},
+                   {"motion", surfaces.motion},
+                   {"distances", paths.distances},
+                   {"instances", scene.instances},
+                   {"materials", scene.materials}},
+                  {{"reflected", reflected}});
 }
 
 const GpuTexture& PathPass::specularAlbedo() {

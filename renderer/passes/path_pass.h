@@ -39,6 +39,11 @@ public:
     void divide(FrameContext& frame, const SceneGpu& scene, const Surfaces& surfaces,
                 std::span<GpuTexture* const> divisors, Division division);
 
+    /// Makes the motion of what surfaces mirror, from the distances that the last run has left: as
+    /// Surfaces::motion, which it is where nothing is mirrored.
+    void reflect(FrameContext& frame, const SceneGpu& scene, const Surfaces& surfaces,
+                 const PathTargets& paths, GpuTexture& reflected);
+
 private:
     struct Call; // what the steps of a path share
     void light(const Call& call);

@@ -128,6 +128,11 @@ void Renderer::Impl::setSignals(const FrameSettings& settings) {
         return;
     if (targets.paths.empty())
         targets.paths = PathTargets(targets.size);
+    SignalTargets& last = targets.signals.back();
+    if (division != PathPass::Division::Lobes)
+        last.motion = {};
+    else if (last.motion.size() != targets.size)
+        last.motion = GpuTexture("reflected motion", PixelFormat::RGBA32F, targets.size);
     for (SignalTargets& of : targets.signals)
         if (of.divisor.size() != targets.size)
             of.divisor = GpuTexture("divisor", PixelFormat::RGBA32F, targets.size);
@@ -245,6 +250,7 @@ FilterInput Renderer::Impl::filterInput(std::size_t signal) const {
     return {.surfaces = t.surfaces,
             .previousVisibility = t.previousVisibility,
             .previousGuides = t.previousGuides,
+            .motion = motionOf(signal),
             .samples = t.samples,
             .strataGuides = t.strataGuides,
             .strataSlope = t.strataSlope,
@@ -312,6 +318,8 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
                         {t.strataGuides, t.strataSlope});
     self.trace(context, t.surfaces, t.seeds.current(),
                [](SignalTargets& signal) -> GpuTexture& { return signal.raw.current(); });
+    if (GpuTexture& reflected = t.signals.back().motion; reflected.size().x > 0)
+        self.paths.reflect(context, *self.sceneGpu, t.surfaces, t.paths, reflected);
     if (beside && needs.lambda)
         self.traceSamplesBeside(context);
 

@@ -37,6 +37,11 @@ struct Renderer::Impl {
     const GpuTexture& demodulation(std::size_t signal) const {
         return division ? targets.signals.at(signal).divisor : targets.surfaces.albedo;
     }
+    /// Returns how what a signal shows has moved.
+    const GpuTexture& motionOf(std::size_t signal) const {
+        const GpuTexture& own = targets.signals.at(signal).motion;
+        return own.size().x > 0 ? own : targets.surfaces.motion;
+    }
     static RanFilter ranFilterOf(const FilterSettings& settings);
     SignalFilter& programsOf(const FilterFamily& family);
     void begin(const FrameInput& input, const FrameSettings& settings);

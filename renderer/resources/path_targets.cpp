@@ -7,6 +7,7 @@ PathTargets::PathTargets(glm::ivec2 size) : bounces(size) {
     const glm::ivec2 segments = segmentsOf(size);
     hits = TexelBuffer("bounce hits", std::size_t(segments.x) * std::size_t(segments.y) *
                                           gpu::kSegmentRays * sizeof(glm::uvec4));
+    distances = GpuTexture("path distances", PixelFormat::R32F, size);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         weights[i] = GpuTexture("path weight", PixelFormat::RGBA32F, size);
         pending[i] = GpuTexture("path pending", PixelFormat::RGBA32F, size);
@@ -15,9 +16,11 @@ PathTargets::PathTargets(glm::ivec2 size) : bounces(size) {
 
 std::vector<const GpuTexture*> PathTargets::all() const {
     std::vector<const GpuTexture*> images;
-    if (!empty())
-        for (std::size_t i = 0; i < weights.size(); ++i)
-            images.insert(images.end(), {&weights[i], &pending[i]});
+    if (empty())
+        return images;
+    images.push_back(&distances);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        images.insert(images.end(), {&weights[i], &pending[i]});
     return images;
 }
 

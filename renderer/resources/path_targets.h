@@ -21,6 +21,7 @@ struct PathTargets {
     TexelBuffer hits; ///< of those: instance, triangle, barycentrics
     // Of two signals the second ones are used too.
     std::array<GpuTexture, 2> weights; ///< RGBA32F: signal a radiance, density in the first
+    GpuTexture distances; ///< R32F: to what a specular ray of the pixel hits, meters; 0: none
     std::array<GpuTexture, 2> pending; ///< RGBA32F: signal if the last shadow ray is not blocked
 };
 

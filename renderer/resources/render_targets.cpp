@@ -42,7 +42,8 @@ void SignalTargets::makeSums() {
 }
 
 std::vector<const GpuTexture*> SignalTargets::all() const {
-    return madeOf({&raw.current(), &raw.previous(), &sampleRaw, &divisor, &sum, &lost, &converged});
+    return madeOf(
+        {&raw.current(), &raw.previous(), &sampleRaw, &motion, &divisor, &sum, &lost, &converged});
 }
 
 FilterTargets::FilterTargets(glm::ivec2 size)

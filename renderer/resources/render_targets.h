@@ -28,6 +28,7 @@ struct SignalTargets {
 
     History raw;
     GpuTexture sampleRaw; ///< RGBA32F, strata: of samples beside the picture; empty without any
+    GpuTexture motion;    ///< RGBA32F: of what is mirrored; empty: it moves with its surface
     GpuTexture divisor;   ///< RGBA32F: what it is multiplied with in the end; empty: by the albedo
     // Of a reference; empty before the first one.
     GpuTexture sum;       ///< RGBA32F: of its samples

@@ -9,13 +9,13 @@ namespace afterglow {
 
 namespace {
 
-constexpr float kHalf = 2.5f;                          // side walls, |x|
-constexpr float kHeight = 2.8f;                        // ceilings, y
-constexpr float kFront = 1.5f;                         // behind the camera, z
-constexpr float kNear = -4.0f, kFar = -4.2f;           // the wall between the rooms, z
-constexpr float kEnd = -7.2f;                          // the end of the second room, z
-constexpr float kDoorLow = -1.7f, kDoorHigh = -0.6f;   // the doorway, x
-constexpr float kDoorTop = 2.1f;                       // the doorway, y
+constexpr float kHalf = 2.5f;                        // side walls, |x|
+constexpr float kHeight = 2.8f;                      // ceilings, y
+constexpr float kFront = 1.5f;                       // behind the camera, z
+constexpr float kNear = -4.0f, kFar = -4.2f;         // the wall between the rooms, z
+constexpr float kEnd = -7.2f;                        // the end of the second room, z
+constexpr float kDoorLow = -1.7f, kDoorHigh = -0.6f; // the doorway, x
+constexpr float kDoorTop = 2.1f;                     // the doorway, y
 
 /// Adds both sides of the wall between the rooms, with a doorway in it.
 void addDividingWall(Mesh& wall) {

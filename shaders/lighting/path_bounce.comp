@@ -26,6 +26,7 @@ writeonly uniform image2D pending0;
 #if PATH_DIVISION == 1
 layout(rgba32f) uniform image2D raw1;
 writeonly uniform image2D pending1;
+writeonly uniform image2D distances; // of the hits of specular rays, meters
 #endif
 
 struct Hit {
@@ -82,8 +83,10 @@ void main() {
 
         vec3 arriving = frame.ambient;
         vec3 sent = vec3(0.0); // by the second surface, if its light is not blocked
+        float far = 4.0 * frame.extent;
         if (found.x != kBvhNoInstance) {
             Hit hit = hitAt(found, direction);
+            far = length(hit.position - origin);
             arriving = emittedBy(hit, origin, direction, w0.a);
             uint seed = fetch(seeds, p).x;
             vec3 u = vec3(randomNumber(seed, kDimensionBounceLight),
@@ -97,9 +100,11 @@ void main() {
         imageStore(raw0, p, imageLoad(raw0, p) + vec4(w0.rgb * arriving, 0.0));
         imageStore(pending0, p, vec4(w0.rgb * sent, 0.0));
 #if PATH_DIVISION == 1
-        vec3 w1 = fetch(weight1, p).rgb;
-        imageStore(raw1, p, imageLoad(raw1, p) + vec4(w1 * arriving, 0.0));
-        imageStore(pending1, p, vec4(w1 * sent, 0.0));
+        vec4 w1 = fetch(weight1, p);
+        imageStore(raw1, p, imageLoad(raw1, p) + vec4(w1.rgb * arriving, 0.0));
+        imageStore(pending1, p, vec4(w1.rgb * sent, 0.0));
+        if (w1.a > 0.0)
+            imageStore(distances, p, vec4(far));
 #endif
     }
     listRay(ray, p);

@@ -41,6 +41,7 @@ TEST_CASE("a filter on another one's result has the lambda of the noise and imag
     const FilterInput in{.surfaces = t.surfaces,
                          .previousVisibility = t.previousVisibility,
                          .previousGuides = t.previousGuides,
+                         .motion = t.surfaces.motion,
                          .samples = t.samples,
                          .strataGuides = t.strataGuides,
                          .strataSlope = t.strataSlope,
