@@ -102,8 +102,7 @@ void ExperimentOptions::addTo(Options& options, const std::string& helpOfExperim
     options.add("--size", size, imageSize(), "Instead of the experiment's own");
     options.add("--frames,-n", frames, wholeNumber(1, kMostFrames),
                 "Instead of the experiment's own; later events do not happen");
-    options.add("--signal", signal, signalName(),
-                "shadows, ao, both or separate, instead of the experiment's own");
+    options.add("--signal", signal, signalName(), "As for render, instead of the experiment's own");
     options.add("--spp", samples, wholeNumber(1, kMostSamples),
                 "Samples a pixel of each reference, likewise");
     options.addFlag("--quick", quick, "96x54 pixels and an eighth of the reference samples");

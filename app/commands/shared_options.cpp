@@ -36,7 +36,8 @@ void ContextGroup::addTo(Options& options) {
 
 void SettingsGroup::addTo(Options& options) {
     options.add("--signal", signal, signalName(),
-                "shadows, ao, both or separate: both, each filtered by itself [both]");
+                "Which light is traced, and as how many signals: shadows, ao, both, separate; "
+                "path, split, bounce [both]");
     options.addEach("--set", changes, setting(),
                     "One tunable of the renderer; again for more. See: afterglow list settings");
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 // Where the light that a surface mirrors was in the frame before. A mirror image lies behind its
-// mirror, as far as the mirrored thing in front of it, and moves as if it stood there. Zimmer et al.
-// 2015, "Path-space Motion Estimation and Decomposition for Robust Animation Filtering", EGSR, in the
-// simple form of one flat mirror; docs/pipeline.md tells the rule.
+// mirror, as far as the mirrored thing in front of it, and moves as if it stood there. Zimmer et
+// al. 2015, "Path-space Motion Estimation and Decomposition for Robust Animation Filtering", EGSR,
+// in the simple form of one flat mirror; docs/pipeline.md tells the rule.
 
 #include "lib/encoding.glsl"
 #include "lib/fetch.glsl"
@@ -69,8 +69,8 @@ vec4 reflectedMotion(ivec2 p) {
 
     // The ray to the image meets the mirror where it was seen.
     vec3 way = image - frame.previousCameraPosition;
-    float t = dot(geometric, position - frame.previousCameraPosition) /
-              min(dot(geometric, way), -1e-12);
+    float t =
+        dot(geometric, position - frame.previousCameraPosition) / min(dot(geometric, way), -1e-12);
     vec4 clip = clipOf(frame.previousClipFromWorld, image);
     if (t <= 0.0 || t > 1.0 || clip.w <= 0.0)
         return own;
