@@ -62,7 +62,7 @@ struct Renderer::Impl {
     const GpuTexture& present(FrameContext& context, std::size_t state,
                               const FrameSettings& settings);
     void placeSurfaces(FrameContext& context, double seconds);
-    void shrinkRegularization();
+    void beginReferenceSample();
 
     ShaderLibrary& shaders;
     bool software;

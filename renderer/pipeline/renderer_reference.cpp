@@ -50,11 +50,13 @@ void Renderer::beginReference(const FrameInput& seen, const FrameInput& world,
         signal.makeSums();
 }
 
-// Kaplanyan and Dachsbacher 2013, section 5: the bias vanishes as samples are added, slowly enough
-// for the variance to vanish as well.
-void Renderer::Impl::shrinkRegularization() {
+// The seeds are those of the sample: without its number, paths would take each surface for a gradient
+// sample, seen by the camera of the last frame. Kaplanyan and Dachsbacher 2013, section 5: the bias
+// of regularization vanishes as samples are added, slowly enough for the variance to vanish as well.
+void Renderer::Impl::beginReferenceSample() {
     if (!division)
         return;
+    frame.uniforms.sampleIndex = std::uint32_t(converging->samples);
     frame.uniforms.regularization = converging->settings.lighting.regularization *
                                     std::pow(float(converging->samples + 1), -1.0f / 6.0f);
     frame.upload();
@@ -67,7 +69,7 @@ void Renderer::addReferenceSamples(int count) {
     RenderTargets& t = self.targets;
     FrameContext context = self.context();
     for (int i = 0; i < count; ++i) {
-        self.shrinkRegularization();
+        self.beginReferenceSample();
         self.trace(context, *self.converging->surfaces, t.seeds.current(),
                    [](SignalTargets& signal) -> GpuTexture& { return signal.raw.current(); });
         for (SignalTargets& signal : t.signals)
