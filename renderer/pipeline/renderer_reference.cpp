@@ -50,9 +50,10 @@ void Renderer::beginReference(const FrameInput& seen, const FrameInput& world,
         signal.makeSums();
 }
 
-// The seeds are those of the sample: without its number, paths would take each surface for a gradient
-// sample, seen by the camera of the last frame. Kaplanyan and Dachsbacher 2013, section 5: the bias
-// of regularization vanishes as samples are added, slowly enough for the variance to vanish as well.
+// The seeds are those of the sample: without its number, paths would take each surface for a
+// gradient sample, seen by the camera of the last frame. Kaplanyan and Dachsbacher 2013, section 5:
+// the bias of regularization vanishes as samples are added, slowly enough for the variance to
+// vanish as well.
 void Renderer::Impl::beginReferenceSample() {
     if (!division)
         return;
