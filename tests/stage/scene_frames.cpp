@@ -9,6 +9,7 @@
 #include "renderer/scene/procedural.h"
 #include "renderer/scene/scene_builder.h"
 #include "renderer/scene/shapes.h"
+#include "tests/support/glossy_scene.h"
 #include "tests/support/source_dir.h"
 
 namespace afterglow::test {
@@ -154,7 +155,9 @@ Scene sceneOfOddities() {
 }
 
 Scene sceneNamed(std::string_view name) {
-    return name == "oddities" ? sceneOfOddities() : makeProceduralScene(name);
+    if (name == "oddities")
+        return sceneOfOddities();
+    return name == "glossy" ? makeGlossy() : makeProceduralScene(name);
 }
 
 const reference::Random& randomOf(std::uint32_t runSeed) {

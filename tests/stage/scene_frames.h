@@ -41,7 +41,8 @@ public:
     std::uint32_t runSeed = 1;
 
     const Scene& scene() const { return scene_; }
-    const reference::SceneView& rest() const { return rest_; } ///< at time 0
+    const reference::SceneView& rest() const { return rest_; }           ///< at time 0
+    const RenderTargets& targets() const { return renderer_.targets(); } ///< of the last frame
     LightState& light(std::string_view name);
 
     SceneFrame next();
@@ -61,7 +62,7 @@ private:
 /// and background.
 Scene sceneOfOddities();
 
-/// A scene made in code by its name, or "oddities".
+/// A scene made in code by its name, "oddities", or "glossy".
 Scene sceneNamed(std::string_view name);
 
 /// The renderer's own noise, as a reference reads it.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <functional>
 #include <string>
-#include <vector>
 
 #include "tests/stage/scene_judges.h"
-#include "tests/stage/spoilt_shaders.h"
+#include "tests/stage/scene_mutants.h"
 #include "tests/support/sequence.h"
 
 // Would the tests of the stages that know the scene notice? Each case plants one error in the text
@@ -17,10 +15,6 @@ using namespace afterglow;
 using namespace afterglow::test;
 
 namespace {
-
-/// What a stage's test would hold against the shaders: its largest difference as a multiple of the
-/// bound, or the number of pixels or strata that are wrong, whichever is more.
-using Measure = std::function<double(ShaderLibrary&)>;
 
 constexpr glm::ivec2 kSize{31, 19};
 
@@ -104,33 +98,6 @@ double measurePicture(ShaderLibrary& shaders) {
     return std::max({double(verdict.wrong), verdict.composed / 1e-6, verdict.display / 0.51});
 }
 
-/// An error that somebody might make.
-struct Mutant {
-    std::string what;
-    std::string file;
-    std::string from; ///< stands in the file, once unless said otherwise
-    std::string to;
-    int times = 1;
-};
-
-void checkMutants(const Measure& measure, const std::vector<Mutant>& mutants) {
-    SpoiltShaders shaders;
-    {
-        ShaderLibrary unchanged = shaders.library();
-        REQUIRE(measure(unchanged) <= 1.0);
-    }
-    for (const Mutant& mutant : mutants) {
-        CAPTURE(mutant.what);
-        const int found = shaders.spoil(mutant.file, mutant.from, mutant.to);
-        CHECK_MESSAGE(found == mutant.times, mutant.file, " has ", found, " times: ", mutant.from);
-        ShaderLibrary library = shaders.library();
-        const double failure = measure(library);
-        MESSAGE(mutant.what, ": ", failure);
-        CHECK(failure >= 3.0);
-        shaders.mend(mutant.file);
-    }
-}
-
 } // namespace
 
 TEST_CASE("errors planted in the visibility stage do not pass") {
@@ -203,7 +170,8 @@ TEST_CASE("errors planted in the forward projection do not pass") {
 
 TEST_CASE("errors planted in the lighting do not pass") {
     const std::string file = "lighting/rays.comp", trace = "lighting/trace.comp",
-                      lights = "lib/lights.glsl", random = "lib/random.glsl";
+                      lights = "lib/lights.glsl", random = "lib/random.glsl",
+                      listing = "lib/ray_listing.glsl";
     checkMutants(
         measureLighting,
         {{"cosine at the surface dropped", file, "max(dot(normal, direction), 0.0)", "1.0"},
@@ -235,16 +203,17 @@ TEST_CASE("errors planted in the lighting do not pass") {
           "radius = randomNumber(seed, kDimensionAoU)"},
          {"ambient rays without an end", file, "above ? frame.aoRadius : -1.0",
           "above ? 1e9 : -1.0"},
-         {"tangent that does not turn", file, "vec3 world = vec3(",
+         {"tangent that does not turn", "lib/tangent.glsl", "vec3 world = vec3(",
           "vec3 world = t; world += 0.0 * vec3("},
-         {"origin on the surface's other side", file, "position + geometricNormal *",
+         {"origin on the surface's other side", listing, "position + geometricNormal *",
           "position - geometricNormal *"},
          {"the last ray of a segment not traced", trace, "if (place >=", "if (place + 1u >="},
          {"half of a list not traced", trace, "if (place >=", "if (place >= 32u || place >="},
-         {"a ray too early in its list", file, "bits & (bit - 1u)", "bits & (bit >> 1u)"},
+         {"a ray too early in its list", listing, "bits & (bit - 1u)", "bits & (bit >> 1u)"},
          {"light of the pixel beside", trace, "ivec2(to.w & 0xffffu,",
           "ivec2((to.w & 0xffffu) ^ 1u,"},
-         {"surroundings instead of light", trace, "imageLoad(raw, p) +", ""},
+         {"surroundings instead of light", trace, "imageLoad(raw, p) + vec4(frame.ambient",
+          "vec4(frame.ambient"},
          {"light that shadows leave", trace, "imageStore(raw, p, vec4(0.0))",
           "imageStore(raw, p, imageLoad(raw, p))"},
          {"one tile for all runs", random, "hash2(frame.seed, dimension)", "hash2(0u, dimension)"},
