@@ -67,8 +67,7 @@ Start startOf(const PathMoment& moment, const PathImages& images, glm::ivec2 p) 
     start.surface.material =
         reference::factorsOf(moment.source.materials[moment.source.instances[instance].material]);
     start.seed = reference::unpackSeed(images.seeds(p));
-    start.surface.eye =
-        reference::eyeOf(start.seed, moment.frame, moment.eye, moment.previousEye);
+    start.surface.eye = reference::eyeOf(start.seed, moment.frame, moment.eye, moment.previousEye);
     return start;
 }
 
@@ -77,8 +76,8 @@ class Judge {
 public:
     Judge(const PathMoment& moment, const PathImages& images)
         : moment_(moment), images_(images),
-          emitters_(reference::emittersOf(moment.source, moment.rest, moment.scene,
-                                          moment.lightScales)),
+          emitters_(
+              reference::emittersOf(moment.source, moment.rest, moment.scene, moment.lightScales)),
           in_{moment.source,
               moment.scene,
               emitters_,
@@ -230,10 +229,9 @@ PathMoment momentOf(const SceneFrames& frames, const SceneFrame& frame) {
 void PathVerdict::operator+=(const PathVerdict& other) {
     for (int PathVerdict::*const number :
          {&PathVerdict::surfaces, &PathVerdict::direct, &PathVerdict::shadowed,
-          &PathVerdict::indirect, &PathVerdict::specular, &PathVerdict::left,
-          &PathVerdict::escaped, &PathVerdict::hitLight, &PathVerdict::carried,
-          &PathVerdict::withOldEye, &PathVerdict::excused, &PathVerdict::wrong,
-          &PathVerdict::spread})
+          &PathVerdict::indirect, &PathVerdict::specular, &PathVerdict::left, &PathVerdict::escaped,
+          &PathVerdict::hitLight, &PathVerdict::carried, &PathVerdict::withOldEye,
+          &PathVerdict::excused, &PathVerdict::wrong, &PathVerdict::spread})
         this->*number += other.*number;
     for (double PathVerdict::*const number :
          {&PathVerdict::largest, &PathVerdict::luminance, &PathVerdict::divisor})

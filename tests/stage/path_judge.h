@@ -39,7 +39,7 @@ PathMoment momentOf(const SceneFrames& frames, const SceneFrame& frame);
 struct PathVerdict {
     int surfaces = 0, direct = 0, shadowed = 0, indirect = 0, specular = 0, left = 0, escaped = 0,
         hitLight = 0;
-    int carried = 0;   ///< whose seed is that of the frame before
+    int carried = 0;    ///< whose seed is that of the frame before
     int withOldEye = 0; ///< of those, whose light would clearly be another from this frame's eye
     int excused = 0, wrong = 0;
     int spread = 0;         ///< of those that are right, which need more than the plain tolerance

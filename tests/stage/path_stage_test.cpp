@@ -22,7 +22,8 @@ void check(const std::string& what, const PathVerdict& v) {
             ", by spread ", v.spread, ", largest ", v.largest, ", divisor ", v.divisor);
     CHECK(v.surfaces > 0);
     CHECK(v.wrong == 0);
-    // Beside edges of triangles, and where a random number picks another lobe or light: none so far.
+    // Beside edges of triangles, and where a random number picks another lobe or light: none so
+    // far.
     CHECK(v.excused <= v.surfaces / 1000);
     // Mirrors, which make of a rounding of the normal another place: at most 3 of 5,000.
     CHECK(v.spread <= v.surfaces / 500);
@@ -120,11 +121,11 @@ TEST_CASE("the signals of paths are what one path of two segments gives, pixel b
                           Case{"oddities", Signal::Split, SamplePlacement::Merged, 0.25f, 131}}) {
         CAPTURE(c.scene);
         const PathVerdict verdict = threeFrames(c);
-        check(c.scene + " " + std::string(nameOf(c.signal)) + ", frame " +
-                  std::to_string(c.frame) + ", kappa " + std::to_string(c.regularization),
+        check(c.scene + " " + std::string(nameOf(c.signal)) + ", frame " + std::to_string(c.frame) +
+                  ", kappa " + std::to_string(c.regularization),
               verdict);
-        for (const int seen : {verdict.direct, verdict.shadowed, verdict.indirect,
-                               verdict.specular, verdict.escaped, 2 * verdict.hitLight})
+        for (const int seen : {verdict.direct, verdict.shadowed, verdict.indirect, verdict.specular,
+                               verdict.escaped, 2 * verdict.hitLight})
             CHECK(seen > 40);
         CHECK(verdict.carried > 100);
     }

@@ -60,6 +60,7 @@ Scene makeGlossy() {
     const std::uint32_t paper = scene.material("paper", {0.2f, 0.4f, 0.8f});
     scene.makeDoubleSided(paper);
     scene.add(square(0.3f, 1.0f), paper, scene.node("sheet", {0.1f, 0.3f, 0.9f}));
+    scene.add(square(0.15f, 1.0f), paper, scene.node("shade", {-0.1f, 2.05f, 0.3f}));
     Mesh box;
     addBox(box, {-0.2f, -0.15f, -0.2f}, {0.2f, 0.15f, 0.2f});
     const std::uint32_t mover = scene.node("mover");
@@ -68,8 +69,12 @@ Scene makeGlossy() {
     scene.light("key", square(0.3f, -1.0f), {9.0f, 8.0f, 6.0f});
     const std::uint32_t glow = scene.glow("fan", {4.0f, 3.0f, 5.0f});
     scene.makeDoubleSided(glow);
-    const std::uint32_t fan = scene.node("fan", {1.3f, 1.3f, 0.5f});
-    scene.add(square(0.2f, 1.0f), glow, fan);
+    const std::uint32_t fan = scene.node("fan", {1.1f, 1.4f, 0.3f});
+    Mesh blades; // two triangles that are not in one plane
+    blades.positions = {{-0.4f, 0, -0.4f}, {-0.3f, 0, 0.4f}, {0.4f, 0.2f, 0.3f}, {0.3f, 0, -0.4f}};
+    blades.normals.assign(4, {0, 1, 0});
+    blades.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.add(blades, glow, fan);
     scene.light("turned away", square(0.25f, 1.0f), {2.0f, 5.0f, 9.0f});
     scene.light("spare", square(0.2f, -1.0f), {3.0f, 9.0f, 3.0f});
 

@@ -7,9 +7,10 @@ namespace afterglow::test {
 
 /// Makes a scene of everything that paths tell apart: metals of roughness 0, 0.05, 0.3 and 1,
 /// glossy dielectrics and something between, a mirrored instance, a moving one, faces of one side
-/// and of two, bright surroundings. Lights: "key" faces down; "fan", of two sides, turns;
-/// "turned away", in a mirrored instance, shows the camera and half of the scene its back; "spare"
-/// is there to be switched off. All lamps reflect, too. Less than 300 triangles.
+/// and of two, bright surroundings. Lights: "key" faces down above a small shade; "fan", of two
+/// sides and bent, turns; "turned away", in a mirrored instance, shows the camera and half of the
+/// scene its back; "spare" is there to be switched off. All lamps reflect, too. Less than 300
+/// triangles.
 Scene makeGlossy();
 
 /// Makes a floor of 8 x 8 m at y = 0 of one material, under the light "key" of radiance 10, 1 x 1 m
