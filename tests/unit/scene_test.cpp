@@ -387,9 +387,10 @@ TEST_CASE("a scene is found by its name or its path, and a wrong name gets advic
     CHECK(loadScene("tiny").name == "tiny");
     const std::string path = (sourceDir() / "assets/scenes/cornell.gltf").string();
     CHECK(loadScene(path).name == "cornell");
-    CHECK(messageOf<UsageError>([] { loadScene("cornel"); }) ==
-          "no scene or file named 'cornel'; did you mean 'cornell'? (known: hall, cornell, rooms, "
-          "moving, tiny, rect, edge)");
+    CHECK(
+        messageOf<UsageError>([] { loadScene("cornel"); }) ==
+        "no scene or file named 'cornel'; did you mean 'cornell'? (known: hall, cornell, gallery, "
+        "rooms, moving, tiny, rect, edge)");
     CHECK(messageOf<UsageError>([] { loadScene("hull"); }).find("did you mean 'hall'?") !=
           std::string::npos);
     CHECK(messageOf<UsageError>([] { loadScene(""); }) != "");
