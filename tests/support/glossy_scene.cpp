@@ -5,6 +5,7 @@
 #include "renderer/scene/shapes.h"
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 namespace afterglow::test {
@@ -122,12 +123,12 @@ Scene makeGlossyFloor(float metallic, float roughness) {
     SceneBuilder scene("glossy floor");
     scene.add(square(4.0f, 1.0f), scene.material("floor", {0.6f, 0.55f, 0.5f}),
               scene.node("floor"));
-    Mesh lamp = square(0.5f, -1.0f);
+    Mesh lamp = square(1.0f, -1.0f);
     for (glm::vec3& p : lamp.positions)
         p.y = 2.0f;
     scene.light("key", lamp, glm::vec3(10.0f));
-    scene.camera(lookAt({0.0f, 1.5f, 3.0f}, {0.0f, 0.0f, 0.0f}));
-    scene.ambient(glm::vec3(0.2f));
+    scene.camera(lookAt({0.0f, 1.5f, 3.0f}, {0.0f, 0.0f, 1.2f}));
+    scene.ambient(glm::vec3(0.05f));
     Scene out = std::move(scene).finish();
     setFactors(out, "floor", metallic, roughness);
     return out;
@@ -139,18 +140,45 @@ Scene makeScreenedLamp() {
     const std::uint32_t plaster = scene.material("plaster", {0.8f, 0.78f, 0.75f});
     Mesh room, screen;
     addBox(room, {-2.0f, 0.0f, -2.0f}, {2.0f, 2.5f, 2.0f}, Facing::Inward);
-    // From wall to wall and up to a gap of half a meter.
-    addBox(screen, {-2.0f, 0.0f, -0.6f}, {2.0f, 2.0f, -0.5f});
+    // From wall to wall and up to a gap of a meter.
+    addBox(screen, {-2.0f, 0.0f, -0.6f}, {2.0f, 1.5f, -0.5f});
     scene.add(room, plaster, still);
     scene.add(screen, plaster, still);
     // Below the upper edge, facing up: the ceiling sends its light to the other half.
     Mesh lamp = square(0.4f, 1.0f);
     for (glm::vec3& p : lamp.positions)
-        p += glm::vec3(0.0f, 0.5f, -1.0f);
-    scene.light("key", lamp, glm::vec3(40.0f));
-    scene.camera(lookAt({0.0f, 1.0f, 1.9f}, {0.0f, 0.7f, 0.0f}));
+        p += glm::vec3(0.0f, 0.1f, -1.0f);
+    scene.light("key", lamp, glm::vec3(100.0f));
+    scene.camera(lookAt({0.0f, 1.2f, 1.9f}, {0.0f, 0.3f, 0.0f}));
     scene.ambient(glm::vec3(0.0f));
     return std::move(scene).finish();
+}
+
+Scene makeFurnace(const std::vector<Material>& floors) {
+    SceneBuilder scene("furnace");
+    const std::uint32_t still = scene.node("set");
+    const float half = 0.5f * float(floors.size());
+    std::vector<std::uint32_t> materials;
+    for (std::size_t i = 0; i < floors.size(); ++i) {
+        const float x = float(i) - half;
+        Mesh floor;
+        addQuadFacing(floor, {0, 1, 0}, {x, 0, -2}, {x + 1, 0, -2}, {x + 1, 0, 2}, {x, 0, 2});
+        materials.push_back(scene.material("floor " + std::to_string(i), floors[i].baseColor));
+        scene.add(floor, materials.back(), still);
+    }
+    Mesh lamp = square(0.2f, -1.0f);
+    for (glm::vec3& p : lamp.positions)
+        p.y = -1.0f;
+    scene.light("key", lamp, glm::vec3(10.0f));
+    // Half of the angles are grazing ones.
+    scene.camera(lookAt({0.0f, 0.9f, 3.4f}, {0.0f, 0.0f, 0.2f}, {.verticalFov = 0.9f}));
+    scene.ambient(glm::vec3(1.0f));
+    Scene out = std::move(scene).finish();
+    for (std::size_t i = 0; i < floors.size(); ++i) {
+        out.materials[materials[i]].metallic = floors[i].metallic;
+        out.materials[materials[i]].roughness = floors[i].roughness;
+    }
+    return out;
 }
 
 } // namespace afterglow::test
