@@ -6,8 +6,8 @@
 #include "renderer/scene/procedural.h"
 #include "tests/reference/path_rays.h"
 #include "tests/reference/surface.h"
-#include "tests/support/glossy_scene.h"
 #include "tests/support/gl_fixture.h"
+#include "tests/support/glossy_scene.h"
 #include "tests/support/sequence.h"
 
 #include <doctest/doctest.h>
@@ -93,8 +93,8 @@ struct Change {
 
 void checkFinite(const Image<glm::vec4>& image) {
     for (const glm::vec4& p : image.pixels())
-        REQUIRE((std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&
-                 std::isfinite(p.w)));
+        REQUIRE(
+            (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && std::isfinite(p.w)));
 }
 
 Material material(glm::vec3 color, float metallic, float roughness) {
@@ -147,8 +147,7 @@ TEST_CASE("a moving camera makes no gradient on glossy surfaces in still light")
                 Change change;
                 for (int i = 0; i < 8; ++i) {
                     const float t = float(i);
-                    sequence.camera.position =
-                        start.position + t * glm::vec3(0.03f, 0.01f, -0.02f);
+                    sequence.camera.position = start.position + t * glm::vec3(0.03f, 0.01f, -0.02f);
                     sequence.camera.orientation = glm::normalize(
                         glm::angleAxis(0.01f * t, glm::vec3(0, 1, 0)) * start.orientation);
                     sequence.next();
@@ -158,13 +157,15 @@ TEST_CASE("a moving camera makes no gradient on glossy surfaces in still light")
                         ": ", change.samples, " samples, largest |delta| / Delta ", change.largest,
                         ", mean lambda ", change.meanLambda());
                 CHECK(change.samples > 500);
-                // Measured: 0 in all of them. A sample has the same place, eye and numbers as before.
+                // Measured: 0 in all of them. A sample has the same place, eye and numbers as
+                // before.
                 CHECK(change.meanLambda() <= 1e-6);
                 CHECK(change.largest <= 1e-4);
             }
 }
 
-TEST_CASE("light that came from other surfaces alone goes out with lambda 1 in the indirect signal") {
+TEST_CASE(
+    "light that came from other surfaces alone goes out with lambda 1 in the indirect signal") {
     const GlCheck noGlMessages;
     constexpr glm::ivec2 kPicture{96, 63};
     const auto lit = converged(makeScreenedLamp(), kPicture, Signal::Bounce, true, 256);
@@ -174,8 +175,7 @@ TEST_CASE("light that came from other surfaces alone goes out with lambda 1 in t
         sequence.light("key").on = false;
         sequence.next();
         const Image<float> lambda = lambdaOf(sequence, 1);
-        const auto gradient =
-            imageOf(sequence.targets(), svgf::kGradient0, 0, 1).read<glm::vec4>();
+        const auto gradient = imageOf(sequence.targets(), svgf::kGradient0, 0, 1).read<glm::vec4>();
         int hidden = 0, caught = 0;
         for (int y = 0; y < lambda.size().y; ++y)
             for (int x = 0; x < lambda.size().x; ++x) {
@@ -197,10 +197,10 @@ TEST_CASE("a lamp's reflection that goes out has lambda 1 in that frame") {
     const GlCheck noGlMessages;
     constexpr glm::ivec2 kPicture{96, 63};
     for (const float metallic : {0.0f, 1.0f}) {
-        const auto on = converged(makeGlossyFloor(metallic, 0.1f), kPicture, Signal::Split, true,
-                                  64);
-        const auto off = converged(makeGlossyFloor(metallic, 0.1f), kPicture, Signal::Split, false,
-                                   64);
+        const auto on =
+            converged(makeGlossyFloor(metallic, 0.1f), kPicture, Signal::Split, true, 64);
+        const auto off =
+            converged(makeGlossyFloor(metallic, 0.1f), kPicture, Signal::Split, false, 64);
         for (const SamplePlacement placement : kPlacements) {
             Sequence sequence(makeGlossyFloor(metallic, 0.1f), kPicture,
                               adaptive(Signal::Split, placement));
@@ -257,10 +257,9 @@ TEST_CASE("the same frames of paths come out twice, bit for bit, in every image"
                 CHECK(differingPixels(runs[0]->renderer().demodulation(signal).read<glm::vec4>(),
                                       runs[1]->renderer().demodulation(signal).read<glm::vec4>()) ==
                       0);
-                CHECK(
-                    differingPixels(
-                        runs[0]->renderer().filteredSignal(0, signal).read<glm::vec4>(),
-                        runs[1]->renderer().filteredSignal(0, signal).read<glm::vec4>()) == 0);
+                CHECK(differingPixels(
+                          runs[0]->renderer().filteredSignal(0, signal).read<glm::vec4>(),
+                          runs[1]->renderer().filteredSignal(0, signal).read<glm::vec4>()) == 0);
             }
             for (const AovInfo& aov : aovs())
                 if (isMadeBy(aov, settings))
@@ -271,7 +270,8 @@ TEST_CASE("the same frames of paths come out twice, bit for bit, in every image"
         }
 }
 
-TEST_CASE("signals by lobes and by segments, each times its divisor, are the light of whole paths") {
+TEST_CASE(
+    "signals by lobes and by segments, each times its divisor, are the light of whole paths") {
     const GlCheck noGlMessages;
     for (const char* scene : {"glossy", "gallery", "cornell"}) {
         CAPTURE(scene);
@@ -283,8 +283,7 @@ TEST_CASE("signals by lobes and by segments, each times its divisor, are the lig
             Image<glm::dvec3> sum(kSize);
             for (std::size_t i = 0; i < signalCount(sequence); ++i) {
                 const auto raw = rawOf(sequence, i);
-                const auto divisor =
-                    sequence.renderer().demodulation(i).read<glm::vec4>();
+                const auto divisor = sequence.renderer().demodulation(i).read<glm::vec4>();
                 for (std::size_t p = 0; p < sum.pixels().size(); ++p)
                     sum.pixels()[p] +=
                         glm::dvec3(raw.pixels()[p]) * glm::dvec3(divisor.pixels()[p]);
@@ -302,8 +301,8 @@ TEST_CASE("signals by lobes and by segments, each times its divisor, are the lig
                     largest = std::max(largest, std::abs(parts.pixels()[p][k] - value) /
                                                     std::max(value, 1e-3));
                 }
-            MESSAGE(std::string(scene), ", ", std::string(nameOf(division)), ": largest difference ",
-                    largest, ", light up to ", most);
+            MESSAGE(std::string(scene), ", ", std::string(nameOf(division)),
+                    ": largest difference ", largest, ", light up to ", most);
             CHECK(largest < 1e-6); // roundings of four quotients and sums
             CHECK(most > 1.0);
         }
@@ -330,8 +329,7 @@ TEST_CASE("nothing of paths is infinite or no number, at any size, wherever came
                 for (std::size_t signal = 0; signal < signalCount(sequence); ++signal) {
                     checkFinite(rawOf(sequence, signal));
                     checkFinite(sequence.renderer().demodulation(signal).read<glm::vec4>());
-                    checkFinite(
-                        sequence.renderer().filteredSignal(0, signal).read<glm::vec4>());
+                    checkFinite(sequence.renderer().filteredSignal(0, signal).read<glm::vec4>());
                 }
                 checkFinite(sequence.targets().filters[0].composed.read<glm::vec4>());
             }
@@ -374,15 +372,14 @@ TEST_CASE("in white surroundings every surface shows its albedo D + E") {
                     continue; // there the table is less exact: tests/oracle/bsdf_oracle_test.cpp
                 ++count[floor];
                 for (std::size_t i = 0; i < signals.size(); ++i) {
-                    const glm::dvec3 shown = glm::dvec3(signals[i]({x, y})) *
-                                             glm::dvec3(divisors[i]({x, y}));
+                    const glm::dvec3 shown =
+                        glm::dvec3(signals[i]({x, y})) * glm::dvec3(divisors[i]({x, y}));
                     const glm::dvec3 expected = division == Signal::Path ? bsdf.albedo().sum()
-                                                : i == 0 ? bsdf.albedo().diffuse
-                                                         : bsdf.albedo().specular;
+                                                : i == 0                 ? bsdf.albedo().diffuse
+                                                                         : bsdf.albedo().specular;
                     for (int k = 0; k < 3; ++k) {
                         error[floor] += (shown[k] - expected[k]) / 3.0;
-                        largest[floor] =
-                            std::max(largest[floor], std::abs(shown[k] - expected[k]));
+                        largest[floor] = std::max(largest[floor], std::abs(shown[k] - expected[k]));
                     }
                 }
             }
