@@ -118,7 +118,7 @@ Scene Timeline::staged(Scene scene, double rate, bool animated, std::string_view
             const auto node =
                 std::uint32_t(indexOf(scene.nodes, motion->node, "node" + of, owner, nameOf));
             const auto turned = glm::angleAxis(glm::radians(motion->turn), glm::vec3(0, 1, 0));
-            if (motion->by != glm::vec3(0.0f))
+            if (motion->by != glm::vec3(0.0f) || motion->turn == 0.0f)
                 stage.move(node, motion->frame, motion->until,
                            stage.translationOf(node) + motion->by);
             if (motion->turn != 0.0f)

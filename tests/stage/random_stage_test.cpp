@@ -43,6 +43,7 @@ std::uint32_t asBits(float value) {
 } // namespace
 
 TEST_CASE("the numbers that follow from a seed are tile, Halton sequence and shift, to 1e-6") {
+    testContext();
     const GlCheck noGlMessages;
     constexpr glm::ivec2 kSize{64, 32};
     Image<std::uint32_t> seeds(kSize);

@@ -62,9 +62,7 @@ int unexpectedGlMessages() {
     return glMessageCount() - expectedMessages;
 }
 
-GlCheck::GlCheck() : before_(unexpectedGlMessages()) {
-    testContext(); // what follows may use OpenGL before it asks for anything else
-}
+GlCheck::GlCheck() : before_(unexpectedGlMessages()) {}
 
 GlCheck::~GlCheck() {
     CHECK_MESSAGE(unexpectedGlMessages() == before_, "OpenGL complained; see the messages above");

@@ -212,8 +212,9 @@ TEST_CASE("a mistake in an experiment is named by file and place, with what was 
           "small.json: rate: expected a number from 0.001 to 1000, found 0");
     CHECK(refusal("seed", "4294967296") ==
           "small.json: seed: expected a whole number >= 0, found 4294967296");
-    CHECK(refusal("signal", R"("light")") == "small.json: signal: expected \"shadows\", \"ao\", "
-                                             "\"both\" or \"separate\", found \"light\"");
+    CHECK(refusal("signal", R"("light")") ==
+          "small.json: signal: expected \"shadows\", \"ao\", \"both\", \"separate\", \"path\", "
+          "\"split\" or \"bounce\", found \"light\"");
     CHECK(refusal("variants", "[]") ==
           "small.json: variants: expected a list of variants, found a list of 0");
     CHECK(refusal("variants", R"(["svgf", "svgf"])") ==
@@ -342,7 +343,7 @@ TEST_CASE(
               .starts_with("no experiment named 'lightoff'; did you mean 'light-off'? (known: "));
     CHECK(answer("statik").find("did you mean 'static'?") != std::string::npos);
     CHECK(answer("fil-ligth").find("did you mean 'fill-light'?") != std::string::npos);
-    CHECK(answer("xyzzy").starts_with("no experiment named 'xyzzy' (known: camera-cut, "));
+    CHECK(answer("xyzzy").starts_with("no experiment named 'xyzzy' (known: bounce-off, "));
     CHECK(answer("light-on") == "found");
     CHECK_THROWS_AS(loadExperiment("no/such/experiment"), InputError);
     CHECK_THROWS_AS(loadExperiment("static.json.json"), InputError);

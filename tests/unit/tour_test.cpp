@@ -367,7 +367,7 @@ TEST_CASE("a tour that is wrong is refused with the file and the place") {
     refused("titel", "\"x\"", "", "unknown key \"titel\"");
     refused("text", "\"\"", ".text", "found \"\"");
     refused("scene", "7", ".scene", "expected a text, found 7");
-    refused("signal", "\"none\"", ".signal", "\"shadows\", \"ao\", \"both\" or \"separate\"");
+    refused("signal", "\"none\"", ".signal", "\"separate\", \"path\", \"split\" or \"bounce\"");
     refused("layout", "\"six\"", ".layout", "found \"six\"");
     refused("panes", "[]", ".panes", "a list of 1 to 4 filters");
     refused("panes", R"(["svgf", "asvfg"])", ".panes[1]", "did you mean 'asvgf'?");
