@@ -184,7 +184,9 @@ void panelView(const PanelContext& panel) {
         chooseMap(state.displays[state.shown.index]);
         chooseRange(state, state.displays[state.shown.index]);
     } else if (picture) {
-        fieldRow(state.panes, fieldByKey("exposure"));
+        for (const Field& field : fields())
+            if (field.group == "display")
+                fieldRow(state.panes, field);
     }
     oracle(state);
     chooseResolution(state);

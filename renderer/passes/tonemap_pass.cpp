@@ -2,14 +2,24 @@
 #include "renderer/passes/tonemap_pass.h"
 
 namespace afterglow {
+namespace {
 
-TonemapPass::TonemapPass(ShaderLibrary& shaders) : program_(shaders.compute("post/tonemap.comp")) {}
+Defines definesFor(int toneMapper) {
+    return {{"TONE_MAPPER", std::to_string(toneMapper)}};
+}
+
+} // namespace
+
+TonemapPass::TonemapPass(ShaderLibrary& shaders) : shaders_(shaders) {
+    shaders_.compute("post/tonemap.comp", definesFor(gpu::kToneAces));
+}
 
 void TonemapPass::run(FrameContext& frame, const GpuTexture& composed, GpuTexture& display,
-                      const gpu::TonemapParams& params) {
+                      int toneMapper, const gpu::TonemapParams& params) {
     const auto scope = frame.pass("tone map", {&display});
-    program_.dispatch(display.size(), params, {frame.block(), {"composed", composed}},
-                      {{"display", display}});
+    shaders_.compute("post/tonemap.comp", definesFor(toneMapper))
+        .dispatch(display.size(), params, {frame.block(), {"composed", composed}},
+                  {{"display", display}});
 }
 
 } // namespace afterglow

@@ -11,11 +11,12 @@ namespace afterglow {
 class TonemapPass {
 public:
     explicit TonemapPass(ShaderLibrary& shaders);
-    void run(FrameContext& frame, const GpuTexture& composed, GpuTexture& display,
+    /// `toneMapper`: kTone...; each has a program of its own, compiled when it is first met.
+    void run(FrameContext& frame, const GpuTexture& composed, GpuTexture& display, int toneMapper,
              const gpu::TonemapParams& params);
 
 private:
-    ComputeProgram& program_;
+    ShaderLibrary& shaders_;
 };
 
 } // namespace afterglow

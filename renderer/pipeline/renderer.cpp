@@ -267,7 +267,7 @@ const GpuTexture& Renderer::Impl::present(FrameContext& context, std::size_t sta
     for (std::size_t i = 0; i < signals.size(); ++i)
         terms.push_back({*states[state].results[i], demodulation(i)});
     composite.run(context, {terms, t.surfaces.emission, t.surfaces.guides}, {shown.composed});
-    tonemap.run(context, shown.composed, shown.display,
+    tonemap.run(context, shown.composed, shown.display, settings.display.toneMapper,
                 {std::exp2(settings.display.exposure), 0.0f, 0.0f, 0.0f});
     return shown.display;
 }

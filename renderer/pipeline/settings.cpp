@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 2> kLambdaUseNames{"blend", "confidence"}
 constexpr std::array<std::string_view, 2> kMagnitudeNames{"signed", "absolute"};
 constexpr std::array<std::string_view, 2> kStrideNames{"doubling", "linear"};
 constexpr std::array<std::string_view, 2> kPlacementNames{"merged", "extra"};
+constexpr std::array<std::string_view, 4> kToneMapperNames{"aces", "agx", "neutral", "none"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 
 constexpr std::string_view kSvgf = "Schied et al. 2017";
@@ -172,6 +173,10 @@ const std::array kFields = std::to_array<Field>({
     {"display", "exposure", "Exposure",
      "Of the display image only; nothing is measured after it.",
      "stops", "own choice", -8.0, 8.0, false, {}, AFTERGLOW_FRAME_FIELD(display.exposure)},
+    {"display", "toneMapper", "Tone mapper",
+     "From exposed radiance to the display: ACES (Narkowicz' fit), like AgX, Khronos' PBR neutral, "
+     "or none, which cuts off what is above 1.",
+     "", "own choice", 0.0, 3.0, false, kToneMapperNames, AFTERGLOW_FRAME_FIELD(display.toneMapper)},
 });
 #undef AFTERGLOW_FIELD
 #undef AFTERGLOW_FRAME_FIELD

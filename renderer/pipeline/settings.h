@@ -4,6 +4,7 @@
 #include "renderer/base/names.h"
 #include "renderer/filters/filter_table.h"
 #include "renderer/pipeline/signals.h"
+#include "shared/post_params.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -27,6 +28,7 @@ struct LightingSettings {
 
 struct DisplaySettings {
     float exposure = 0.0f; ///< stops
+    int toneMapper = gpu::kToneAces;
 };
 
 /// The settings that all filters of a frame share.

@@ -1,12 +1,12 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 
-// Linear radiance to the display: exposure, a curve with a shoulder, sRGB encoding.
-// The curve is the rational fit of Narkowicz 2015, "ACES Filmic Tone Mapping Curve", per channel.
+// Linear radiance to the display: exposure, a tone mapper (TONE_MAPPER), sRGB encoding.
 
 #include "lib/color.glsl"
 #include "lib/fetch.glsl"
 #include "lib/frame.glsl"
+#include "lib/tone_map.glsl"
 #include "shared/post_params.h"
 
 layout(local_size_x = kTileSize, local_size_y = kTileSize) in;
@@ -17,13 +17,10 @@ layout(std140, binding = kPassBlock) uniform Params {
 Float4Texture(composed);
 writeonly uniform image2D display;
 
-vec3 filmic(vec3 x) {
-    return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
-}
-
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.size)))
         return;
-    imageStore(display, p, vec4(encodeSrgb(filmic(params.exposure * fetch(composed, p).rgb)), 1.0));
+    imageStore(display, p,
+               vec4(encodeSrgb(toneMap(params.exposure * fetch(composed, p).rgb)), 1.0));
 }

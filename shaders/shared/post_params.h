@@ -8,6 +8,12 @@ struct MeanParams {
     float unused0, unused1, unused2;
 };
 
+// Tone mappers, lib/tone_map.glsl.
+const int kToneAces = 0;
+const int kToneAgx = 1;
+const int kToneNeutral = 2;
+const int kToneNone = 3;
+
 struct TonemapParams {
     float exposure; // factor
     float unused0, unused1, unused2;

@@ -62,6 +62,8 @@ std::vector<Variant> allVariants() {
         if (name == "post/debug_view.comp")
             defines = {{{"SOURCE", "Float4Texture"}},
                        {{"SOURCE", "Uint4Texture"}, {"SOURCE_IS_INTEGER", "1"}}};
+        if (name == "post/tonemap.comp")
+            defines = {{}, {{"TONE_MAPPER", "1"}}, {{"TONE_MAPPER", "2"}}, {{"TONE_MAPPER", "3"}}};
         for (Defines& d : defines) {
             variants.push_back({name, d});
             d.emplace_back("FETCH_BY_IMAGE", "1");

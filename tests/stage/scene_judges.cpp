@@ -244,7 +244,8 @@ PictureVerdict judgePicture(const SceneFrames& frames, const SceneFrame& frame) 
             glm::dvec3(frame.filtered(p)), glm::dvec3(frame.albedo(p)),
             glm::dvec3(frame.emission(p)), isBackground, glm::dvec3(frames.scene().ambient));
         const glm::dvec3 composed(frame.composed(p));
-        const glm::dvec3 shown = reference::display(composed, frames.settings.display.exposure);
+        const glm::dvec3 shown = reference::display(composed, frames.settings.display.exposure,
+                                                    frames.settings.display.toneMapper);
         for (int k = 0; k < 3; ++k) {
             raise(verdict.composed,
                   std::abs(composed[k] - expected[k]) / std::max(1.0, expected[k]));
