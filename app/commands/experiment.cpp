@@ -71,7 +71,8 @@ Experiment changed(Experiment experiment, const ExperimentOptions& options) {
     for (Variant& variant : experiment.variants) {
         variant.changes.insert(variant.changes.end(), options.settings.begin(),
                                options.settings.end());
-        settingsOf(variant, experiment.signal); // says what is wrong before anything is made
+        // Says what is wrong before anything is made.
+        requireMeasurable(settingsOf(variant, experiment.signal));
     }
     return experiment;
 }
@@ -254,7 +255,8 @@ private:
                 point.name += "-" + key + "-" + value;
                 point.changes.push_back(change);
                 point.sweep = SweepPoint{variant.name, key, value};
-                settingsOf(point, experiment.signal); // says what is wrong before anything is made
+                // Says what is wrong before anything is made.
+                requireMeasurable(settingsOf(point, experiment.signal));
                 points.push_back(std::move(point));
             }
         experiment.variants = std::move(points);

@@ -10,6 +10,7 @@
 #include "renderer/base/log.h"
 #include "renderer/gl/embedded_shaders.h"
 #include "renderer/image/image_io.h"
+#include "renderer/pipeline/jitter.h"
 
 #include <array>
 #include <cstdlib>
@@ -146,6 +147,7 @@ std::string referenceKey(const ReferenceRequest& request, const ReferenceMaker& 
     hash.add(lighting.signalClamp);
     if (pathsOf(Signal(lighting.signal)))
         hash.add(lighting.regularization);
+    hash.add(jitterOf(request.settings.display, request.seen.frame));
     return hash.hex();
 }
 

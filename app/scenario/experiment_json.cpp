@@ -94,7 +94,7 @@ Variant readVariant(const JsonReader& json) {
                                    sweep->at("value").setting()};
     }
     try {
-        settingsOf(variant, Signal::Both);
+        requireMeasurable(settingsOf(variant, Signal::Both));
     } catch (const UsageError& error) {
         throw InputError(std::string(json.source()) + ": variant " + variant.name + ": " +
                          error.what());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/scenario/variant.h"
 
+#include "renderer/base/error.h"
+
 #include <algorithm>
 
 namespace afterglow {
@@ -24,6 +26,15 @@ Settings settingsOf(const Variant& variant, Signal signal) {
     for (const auto& [key, value] : variant.changes)
         setField(settings, key, value);
     return settings;
+}
+
+void requireMeasurable(const Settings& settings) {
+    if (AntiAliasing(settings.display.antiAliasing) != AntiAliasing::Off)
+        throw UsageError("an experiment measures at the centers of pixels, where its references "
+                         "are: antiAliasing stays off");
+    if (settings.display.autoExposure != 0)
+        throw UsageError("an experiment measures all of its pictures at one exposure: autoExposure "
+                         "stays off");
 }
 
 } // namespace afterglow

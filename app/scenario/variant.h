@@ -44,4 +44,7 @@ bool isPlainName(std::string_view name);
 /// UsageError for a setting that does not exist or a value out of range.
 Settings settingsOf(const Variant& variant, Signal signal);
 
+/// Throws UsageError where pictures with these settings cannot be held against a reference.
+void requireMeasurable(const Settings& settings);
+
 } // namespace afterglow

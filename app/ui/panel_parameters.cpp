@@ -87,7 +87,7 @@ void panelParameters(const PanelContext& panel) {
                                                                ImGuiTreeNodeFlags_SpanAvailWidth |
                                                                ImGuiTreeNodeFlags_FramePadding);
         ImGui::PopStyleColor(3);
-        if (group == "lighting")
+        if (group == "lighting" || group == "anti-aliasing")
             tooltip("The same in all panes");
         if (!open)
             continue;

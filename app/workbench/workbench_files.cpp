@@ -245,6 +245,9 @@ void Workbench::openExperiment(const std::string& nameOrPath) {
             panes.frame.lighting = settings.lighting;
         setPane(panes, i, nameOf(variant.filter) == variant.name ? "" : variant.name, settings);
     }
+    // As it is measured.
+    panes.frame.display.antiAliasing = int(AntiAliasing::Off);
+    panes.frame.display.autoExposure = 0;
     panes.pair = {0, 1};
     panes.layout = layoutFor(panes.count);
     panes.active = 0;

@@ -24,6 +24,12 @@ using G = ImageGroup;
 const std::array kRows = std::to_array<Row>({
     {{"color", "linear radiance: the filtered signal times albedo, plus emission", "RGB", G::Light, radiance()},
      [](R r, std::size_t i, std::size_t) { return AovSource{r.targets().filters[i].composed}; }},
+    {{"antialiased", "color averaged over time, where there is temporal anti-aliasing; else color", "RGB", G::Light, radiance()},
+     [](R r, std::size_t i, std::size_t) {
+         const FilterTargets& shown = r.targets().filters[i];
+         const GpuTexture& resolved = shown.resolved.current();
+         return AovSource{resolved.size().x != 0 ? resolved : shown.composed};
+     }},
     {{"raw", "the signal as traced, one sample a pixel, without albedo, radiance", "RGB", G::Light, radiance(), kPerSignal},
      [](R r, std::size_t, std::size_t s) { return AovSource{r.targets().signals[s].raw.current()}; }},
     {{"albedo", "diffuse reflectance of the surface, [0, 1]", "RGB", G::Surfaces, {gpu::kMapRadiance}},

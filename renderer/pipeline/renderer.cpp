@@ -2,6 +2,7 @@
 #include "renderer/pipeline/renderer_impl.h"
 
 #include "renderer/gl/device_memory.h"
+#include "renderer/pipeline/jitter.h"
 
 #include "shared/counters.h"
 
@@ -90,7 +91,8 @@ SignalFilter& Renderer::Impl::programsOf(const FilterFamily& family) {
 }
 
 // Poses, lights and the frame block.
-void Renderer::Impl::begin(const FrameInput& input, const FrameSettings& settings) {
+void Renderer::Impl::begin(const FrameInput& input, const FrameSettings& settings,
+                           glm::vec2 jitter) {
     const Pose pose = poseAt(scene, input.seconds);
     sceneGpu->update(scene, pose, previousPose.value_or(pose));
     previousPose = pose;
@@ -108,6 +110,7 @@ void Renderer::Impl::begin(const FrameInput& input, const FrameSettings& setting
     u.aoRadius = settings.lighting.aoRadius * sceneGpu->extent();
     u.signalClamp = settings.lighting.signalClamp;
     u.regularization = settings.lighting.regularization;
+    u.jitter = jitter;
     frame.begin(input.camera, targets.size);
     targets.counters.clear();
 }
@@ -163,6 +166,8 @@ void Renderer::Impl::startState(std::size_t state, const FilterFamily& family) {
     while (own.own.size() < signals.size())
         own.own.emplace_back(family.images, targets.size);
     const bool goesOn = isOfFamily(state);
+    if (!goesOn && own.resolved.current().size().x != 0)
+        own.resolved.clear();
     std::size_t donor = 0;
     while (donor < kFilterStates && !isOfFamily(donor))
         ++donor;
@@ -259,19 +264,6 @@ FilterInput Renderer::Impl::filterInput(std::size_t signal) const {
             .samplesBeside = samplesBeside};
 }
 
-const GpuTexture& Renderer::Impl::present(FrameContext& context, std::size_t state,
-                                          const FrameSettings& settings) {
-    RenderTargets& t = targets;
-    FilterTargets& shown = t.filters[state];
-    std::vector<CompositePass::Term> terms;
-    for (std::size_t i = 0; i < signals.size(); ++i)
-        terms.push_back({*states[state].results[i], demodulation(i)});
-    composite.run(context, {terms, t.surfaces.emission, t.surfaces.guides}, {shown.composed});
-    tonemap.run(context, shown.composed, shown.display, settings.display.toneMapper,
-                {std::exp2(settings.display.exposure), 0.0f, 0.0f, 0.0f});
-    return shown.display;
-}
-
 const GpuTexture& Renderer::render(const FrameInput& input, const Settings& settings) {
     const FilterRun run{0, settings};
     render(input, settings, {&run, 1});
@@ -293,7 +285,7 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
     // what was just rendered can be looked at as "current".
     t.swapHistories();
     self.timer.beginFrame();
-    self.begin(input, settings);
+    self.begin(input, settings, jitterOf(settings.display, input.frame));
 
     FrameContext context = self.context();
     context.listener = self.listener;
@@ -327,7 +319,10 @@ void Renderer::render(const FrameInput& input, const FrameSettings& settings,
         if (runs.size() > 1)
             context.prefix = std::string(1, char('A' + run.state)) + " ";
         self.filter(context, run);
-        self.present(context, run.state, settings);
+        self.compose(context, run.state);
+        if (&run == &runs.front()) // one exposure for all, so that what differs is the filter
+            self.expose(context, run.state, settings.display);
+        self.present(context, run.state, settings.display);
     }
 
     self.frame.end();

@@ -59,12 +59,14 @@ struct HistoryCheckpoint {
     struct FilterHistory {
         RanFilter ran;
         std::vector<std::vector<GpuTexture>> images; ///< by signal
+        std::optional<GpuTexture> resolved;          ///< of anti-aliasing
     };
     std::span<const SignalInfo> signals;
     std::vector<GpuTexture> images;
     std::array<std::optional<FilterHistory>, kFilterStates> filters; ///< of those that ran
     std::optional<FrameData::View> view;
     std::optional<Pose> pose;
+    std::optional<GpuTexture> exposure; ///< that has adapted by itself
 
     std::size_t bytes() const; ///< on the device
 };
@@ -107,9 +109,10 @@ public:
     /// Hears what each pass makes, from the next frame on; empty: nobody. Must outlive its use.
     void setListener(PassListener* listener);
 
-    /// A reference: the converged signals of one moment, from the same pixel-center surface samples
-    /// that a frame has and many samples of each signal a pixel, summed in compensated 32-bit
-    /// float. begin, then add as often as wanted, then finish. All histories are lost.
+    /// A reference: the converged signals of one moment, from the same surface samples that the
+    /// frame of this number has (those of the pixels' centers, unless edges are smoothed) and many
+    /// samples of each signal a pixel, summed in compensated 32-bit float. begin, then add as often
+    /// as wanted, then finish. All histories are lost.
     void beginReference(const FrameInput& input, const FrameSettings& settings);
     /// The surfaces that `seen` shows, in the light of `world`: the visibility samples (instance,
     /// triangle, barycentrics) are those of the camera and the pose of `seen`; they are placed by

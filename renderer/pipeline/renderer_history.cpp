@@ -18,6 +18,10 @@ void copyBack(const std::vector<GpuTexture*>& images, const std::vector<GpuTextu
         images[i]->copyFrom(copies.at(i));
 }
 
+std::optional<GpuTexture> copyIfMade(const GpuTexture& image) {
+    return image.size().x != 0 ? std::optional(image.copy()) : std::nullopt;
+}
+
 std::size_t bytesOf(const std::vector<GpuTexture>& images) {
     std::size_t sum = 0;
     for (const GpuTexture& image : images)
@@ -28,11 +32,14 @@ std::size_t bytesOf(const std::vector<GpuTexture>& images) {
 } // namespace
 
 std::size_t HistoryCheckpoint::bytes() const {
-    std::size_t sum = bytesOf(images);
-    for (const auto& filter : filters)
-        if (filter)
-            for (const std::vector<GpuTexture>& signal : filter->images)
-                sum += bytesOf(signal);
+    std::size_t sum = bytesOf(images) + (exposure ? exposure->bytes() : 0);
+    for (const auto& filter : filters) {
+        if (!filter)
+            continue;
+        for (const std::vector<GpuTexture>& signal : filter->images)
+            sum += bytesOf(signal);
+        sum += filter->resolved ? filter->resolved->bytes() : 0;
+    }
     return sum;
 }
 
@@ -43,13 +50,15 @@ HistoryCheckpoint Renderer::checkpoint() const {
                            .images = copiesOf(t.kept()),
                            .filters = {},
                            .view = impl_->frame.previous(),
-                           .pose = impl_->previousPose};
+                           .pose = impl_->previousPose,
+                           .exposure = copyIfMade(t.exposure.current())};
     for (std::size_t i = 0; i < kFilterStates; ++i) {
         if (!impl_->states[i].ran)
             continue;
         kept.filters[i].emplace(*impl_->states[i].ran);
         for (ImageSet& own : t.filters[i].own)
             kept.filters[i]->images.push_back(copiesOf(own.kept()));
+        kept.filters[i]->resolved = copyIfMade(t.filters[i].resolved.current());
     }
     return kept;
 }
@@ -74,9 +83,19 @@ void Renderer::restore(const HistoryCheckpoint& kept) {
             impl_->states[i].results[signal] = images.empty() ? nullptr : images.front();
         }
         impl_->states[i].ran = ran;
+        t.filters[i].resolved = History();
+        if (kept.filters[i]->resolved) {
+            t.filters[i].makeResolved();
+            t.filters[i].resolved.current().copyFrom(*kept.filters[i]->resolved);
+        }
     }
     impl_->frame.setPrevious(kept.view);
     impl_->previousPose = kept.pose;
+    t.exposure = History();
+    if (kept.exposure) {
+        t.makeExposure();
+        t.exposure.current().copyFrom(*kept.exposure);
+    }
 }
 
 } // namespace afterglow

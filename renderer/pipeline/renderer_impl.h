@@ -4,10 +4,12 @@
 // What Renderer is made of. Seen by its own .cpp files alone.
 
 #include "renderer/passes/composite_pass.h"
+#include "renderer/passes/exposure_pass.h"
 #include "renderer/passes/forward_project_pass.h"
 #include "renderer/passes/gradient_pass.h"
 #include "renderer/passes/reference_pass.h"
 #include "renderer/passes/surface_pass.h"
+#include "renderer/passes/taa_pass.h"
 #include "renderer/passes/tonemap_pass.h"
 #include "renderer/passes/visibility_pass.h"
 #include "renderer/pipeline/renderer.h"
@@ -21,8 +23,8 @@ struct Renderer::Impl {
     Impl(ShaderLibrary& library, const GlInfo& gl)
         : shaders(library), software(gl.softwareRasterizer), timer(gl.softwareRasterizer),
           visibility(shaders), forwardProject(shaders), surface(shaders), lighting(shaders),
-          paths(shaders), strata(shaders), composite(shaders), tonemap(shaders),
-          reference(shaders) {
+          paths(shaders), strata(shaders), composite(shaders), autoExposure(shaders), taa(shaders),
+          tonemap(shaders), reference(shaders) {
         programsOf(familyOf(Filter::Svgf)); // compiled before the first frame
     }
 
@@ -44,7 +46,7 @@ struct Renderer::Impl {
     }
     static RanFilter ranFilterOf(const FilterSettings& settings);
     SignalFilter& programsOf(const FilterFamily& family);
-    void begin(const FrameInput& input, const FrameSettings& settings);
+    void begin(const FrameInput& input, const FrameSettings& settings, glm::vec2 jitter);
     void setLights(const FrameInput& input);
     void setSignals(const FrameSettings& settings);
     void startStates(std::span<const FilterRun> runs);
@@ -59,8 +61,14 @@ struct Renderer::Impl {
     void traceSamplesBeside(const FrameContext& context);
     void filter(const FrameContext& context, const FilterRun& run);
     FilterInput filterInput(std::size_t signal) const;
+    void compose(FrameContext& context, std::size_t state);
+    void expose(FrameContext context, std::size_t state, const DisplaySettings& display);
+    const GpuTexture& antiAlias(FrameContext& context, FilterTargets& shown,
+                                const GpuTexture& color, const GpuTexture* exposure,
+                                const gpu::TaaParams& params);
     const GpuTexture& present(FrameContext& context, std::size_t state,
-                              const FrameSettings& settings);
+                              const DisplaySettings& display);
+    const GpuTexture& presentReference(FrameContext& context, DisplaySettings display);
     void placeSurfaces(FrameContext& context, double seconds);
     void beginReferenceSample();
 
@@ -74,6 +82,8 @@ struct Renderer::Impl {
     PathPass paths;
     StrataPass strata;
     CompositePass composite;
+    ExposurePass autoExposure;
+    TaaPass taa;
     TonemapPass tonemap;
     ReferencePass reference;
     std::map<const FilterFamily*, std::unique_ptr<SignalFilter>> programs;

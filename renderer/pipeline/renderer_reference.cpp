@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part of Renderer that converges references.
 
+#include "renderer/pipeline/jitter.h"
 #include "renderer/pipeline/renderer_impl.h"
 
 #include <cmath>
@@ -31,7 +32,8 @@ void Renderer::beginReference(const FrameInput& seen, const FrameInput& world,
     first.frame = 0; // the number of a reference's first sample takes the place of the frame's
     self.setSignals(settings);
     self.states = {};
-    self.begin(first, settings);
+    // The places in the pixels at which the frame looked, so that it can be compared.
+    self.begin(first, settings, jitterOf(settings.display, seen.frame));
     self.frame.forget();
     self.previousPose.reset();
     FrameContext context = self.context();
@@ -91,7 +93,7 @@ const GpuTexture& Renderer::finishReference() {
         self.states[0].results[i] = &signal.converged;
     }
     self.states[0].ran = Impl::ranFilterOf({Filter::None, {}});
-    return self.present(context, 0, self.converging->settings);
+    return self.presentReference(context, self.converging->settings.display);
 }
 
 const GpuTexture& Renderer::showReference(std::span<const Image<glm::vec4>> converged,
@@ -108,7 +110,7 @@ const GpuTexture& Renderer::showReference(std::span<const Image<glm::vec4>> conv
         signal.converged.write(converged[i]);
         self.states[0].results[i] = &signal.converged;
     }
-    return self.present(context, 0, settings);
+    return self.presentReference(context, settings.display);
 }
 
 } // namespace afterglow

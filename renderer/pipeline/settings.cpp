@@ -25,6 +25,8 @@ constexpr std::array<std::string_view, 2> kMagnitudeNames{"signed", "absolute"};
 constexpr std::array<std::string_view, 2> kStrideNames{"doubling", "linear"};
 constexpr std::array<std::string_view, 2> kPlacementNames{"merged", "extra"};
 constexpr std::array<std::string_view, 4> kToneMapperNames{"aces", "agx", "neutral", "none"};
+constexpr std::array<std::string_view, 2> kAntiAliasingNames{"off", "taa"};
+constexpr std::array<std::string_view, 2> kTaaOrderNames{"before", "after"};
 constexpr std::array<std::string_view, 2> kSwitchNames{"off", "on"};
 
 constexpr std::string_view kSvgf = "Schied et al. 2017";
@@ -173,10 +175,35 @@ const std::array kFields = std::to_array<Field>({
     {"display", "exposure", "Exposure",
      "Of the display image only; nothing is measured after it.",
      "stops", "own choice", -8.0, 8.0, false, {}, AFTERGLOW_FRAME_FIELD(display.exposure)},
+    {"display", "autoExposure", "Automatic exposure",
+     "Takes the mean of the logarithms of luminance to middle gray, 0.18; the exposure by hand is "
+     "added.",
+     "", "Reinhard et al. 2002", 0.0, 1.0, false, kSwitchNames, AFTERGLOW_FRAME_FIELD(display.autoExposure)},
+    {"display", "exposureFrames", "Adaptation",
+     "Time constant with which the automatic exposure follows the picture.",
+     "frames", "own choice", 0.1, 600.0, true, {}, AFTERGLOW_FRAME_FIELD(display.exposureFrames)},
+    {"display", "exposureLimit", "Exposure limit",
+     "The automatic exposure stays within so many stops of both signs.",
+     "stops", "own choice", 0.0, 16.0, false, {}, AFTERGLOW_FRAME_FIELD(display.exposureLimit)},
     {"display", "toneMapper", "Tone mapper",
      "From exposed radiance to the display: ACES (Narkowicz' fit), like AgX, Khronos' PBR neutral, "
      "or none, which cuts off what is above 1.",
      "", "own choice", 0.0, 3.0, false, kToneMapperNames, AFTERGLOW_FRAME_FIELD(display.toneMapper)},
+
+    {"anti-aliasing", "antiAliasing", "Anti-aliasing",
+     "Temporal: every frame looks through another place of each pixel, and the frames are averaged "
+     "where their surfaces went. Filters see those places as well; experiments measure at the "
+     "pixels' centers, without it.",
+     "", "Karis 2014", 0.0, 1.0, false, kAntiAliasingNames, AFTERGLOW_FRAME_FIELD(display.antiAliasing)},
+    {"anti-aliasing", "taaBlend", "Blend",
+     "Least weight of the newest frame in the anti-aliased picture.",
+     "", "Karis 2014", 0.01, 1.0, true, {}, AFTERGLOW_FRAME_FIELD(display.taaBlend)},
+    {"anti-aliasing", "taaClip", "Clip",
+     "How far the anti-aliased history may be from the mean of this frame around the pixel.",
+     "standard deviations", "Salvi 2016", 0.25, 16.0, true, {}, AFTERGLOW_FRAME_FIELD(display.taaClip)},
+    {"anti-aliasing", "taaOrder", "Order",
+     "Whether frames are averaged before the tone mapper, weighted by luminance, or after it.",
+     "", "own choice, by measurement", 0.0, 1.0, false, kTaaOrderNames, AFTERGLOW_FRAME_FIELD(display.taaOrder)},
 });
 #undef AFTERGLOW_FIELD
 #undef AFTERGLOW_FRAME_FIELD

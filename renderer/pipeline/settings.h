@@ -26,9 +26,22 @@ struct LightingSettings {
     int gradientSamples = int(SamplePlacement::Merged);
 };
 
+/// How edges are smoothed: not at all, or over time, by a frame that looks through another place of
+/// each pixel every time.
+enum class AntiAliasing { Off, Taa };
+/// Where frames are averaged over time: in linear radiance, or in what the display shows.
+enum class TaaOrder { BeforeToneMap, AfterToneMap };
+
 struct DisplaySettings {
     float exposure = 0.0f; ///< stops
+    int autoExposure = 0;
+    float exposureFrames = 20.0f; ///< time constant of the adaptation
+    float exposureLimit = 4.0f;   ///< stops
     int toneMapper = gpu::kToneAces;
+    int antiAliasing = int(AntiAliasing::Off);
+    float taaBlend = 0.1f;
+    float taaClip = 1.25f; ///< standard deviations
+    int taaOrder = int(TaaOrder::BeforeToneMap);
 };
 
 /// The settings that all filters of a frame share.
@@ -45,7 +58,7 @@ struct Settings : FrameSettings, FilterSettings {};
 /// Sliders, JSON keys, range checks and help are made from it.
 struct Field {
     using Ref = std::variant<float*, int*>;
-    std::string_view group;   ///< "temporal", "spatial", "gradient", "lighting", "display"
+    std::string_view group;   ///< "temporal", "spatial", "gradient", "lighting", ...
     std::string_view key;     ///< JSON key, unique: "alpha"
     std::string_view label;   ///< for a person
     std::string_view meaning; ///< one sentence

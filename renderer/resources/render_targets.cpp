@@ -51,10 +51,18 @@ FilterTargets::FilterTargets(glm::ivec2 size)
       display(cleared("display", PixelFormat::RGBA8, size)) {}
 
 std::vector<const GpuTexture*> FilterTargets::all() const {
-    std::vector<const GpuTexture*> textures = madeOf({&composed, &display});
+    std::vector<const GpuTexture*> textures =
+        madeOf({&composed, &display, &resolved.current(), &resolved.previous(), &toned});
     for (const ImageSet& images : own)
         append(textures, images.all());
     return textures;
+}
+
+void FilterTargets::makeResolved() {
+    if (resolved.current().size().x != 0)
+        return;
+    resolved = History("resolved", PixelFormat::RGBA32F, composed.size());
+    resolved.clear();
 }
 
 RenderTargets::RenderTargets(glm::ivec2 imageSize)
@@ -91,9 +99,19 @@ void RenderTargets::swapHistories() {
     seeds.swap();
     for (SignalTargets& signal : signals)
         signal.raw.swap();
-    for (FilterTargets& filter : filters)
+    exposure.swap();
+    for (FilterTargets& filter : filters) {
+        filter.resolved.swap();
         for (ImageSet& images : filter.own)
             images.swapHistories();
+    }
+}
+
+void RenderTargets::makeExposure() {
+    if (exposure.current().size().x != 0)
+        return;
+    exposure = History("exposure", PixelFormat::RGBA32F, glm::ivec2(1));
+    exposure.clear();
 }
 
 std::vector<GpuTexture*> RenderTargets::kept() {
@@ -106,7 +124,8 @@ std::vector<GpuTexture*> RenderTargets::kept() {
 std::vector<const GpuTexture*> RenderTargets::all() const {
     std::vector<const GpuTexture*> textures = madeOf(
         {&ids, &depth, &previousVisibility, &previousGuides, &seeds.current(), &seeds.previous(),
-         &owners, &claims, &samples, &strataGuides, &strataSlope, &sampleSeeds, &counters});
+         &owners, &claims, &samples, &strataGuides, &strataSlope, &sampleSeeds, &luminanceSums,
+         &exposure.current(), &exposure.previous(), &counters});
     for (const Surfaces* seen : {&surfaces, &sampleSurfaces, &placed})
         if (!seen->empty())
             append(textures, seen->all());

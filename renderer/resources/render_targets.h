@@ -43,10 +43,14 @@ struct FilterTargets {
 
     bool empty() const { return composed.size().x == 0; }
     std::vector<const GpuTexture*> all() const;
+    void makeResolved(); ///< that of anti-aliasing, without frames, unless there is one
 
     std::vector<ImageSet> own; ///< by signal: what the filter declares
     GpuTexture composed;       ///< RGBA32F: remodulated linear radiance
     GpuTexture display;        ///< RGBA8: tone-mapped, sRGB-encoded
+    // Of anti-aliasing; empty without it.
+    History resolved; ///< RGBA32F: rgb: average over time; a: frames in it
+    GpuTexture toned; ///< RGBA32F: tone-mapped, linear, where that comes first
 };
 
 /// Every screen-sized texture of the renderer: what it holds, how, and for how long. Contents are
@@ -58,7 +62,9 @@ struct RenderTargets {
     void swapHistories(); ///< current becomes previous, of all that are not empty; once a frame
     /// Makes so many signals; further ones begin with zeros.
     void setSignals(std::size_t count);
-    /// Returns the images that the next frame reads, without the histories of filters.
+    void makeExposure(); ///< none, unless there is one
+    /// Returns the images that the next frame reads, without the histories of filters
+    /// and of what is shown.
     std::vector<GpuTexture*> kept();
     std::vector<const GpuTexture*> all() const;
     std::size_t bytes() const;
@@ -88,6 +94,11 @@ struct RenderTargets {
 
     /// The first one always; the others are empty until they first run.
     std::array<FilterTargets, kFilterStates> filters;
+
+    // Of the automatic exposure; empty without it.
+    GpuTexture luminanceSums; ///< RGBA32F, tiles: sum of log2 of luminance, foreground pixels
+    History
+        exposure; ///< RGBA32F, one texel: stops, mean of log2 of luminance, foreground pixels, 1
 
     GpuTexture counters; ///< R32UI: shared/counters.h
 };

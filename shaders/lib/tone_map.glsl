@@ -13,18 +13,18 @@ vec3 toneMapAces(vec3 x) {
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-// After Sobotka's AgX (2022): mixed channels, a sigmoid over stops, channels unmixed. The mixture is
-// that of Wrensch 2023, "Minimal AgX Implementation". Departure: the sigmoid is a formula, where
+// After Sobotka's AgX (2022): mixed channels, a sigmoid over stops, channels unmixed. The mixture
+// is that of Wrensch 2023, "Minimal AgX Implementation". Departure: the sigmoid is a formula, where
 // AgX has a table and Wrensch a polynomial; it is within 0.006 of that polynomial.
 const mat3 kAgxMixed = mat3(0.842479, 0.0423282, 0.0423757, // columns
                             0.0784336, 0.878469, 0.0784336, //
                             0.0792237, 0.0791661, 0.879143);
 const mat3 kAgxUnmixed = mat3(1.1968791, -0.052896772, -0.052971707, // its inverse
-                              -0.098020853, 1.1519026, -0.0980434, //
+                              -0.098020853, 1.1519026, -0.0980434,   //
                               -0.099029693, -0.098961104, 1.1510736);
 const float kAgxDarkest = -12.473931; // log2(0.18) - 10
 const float kAgxStops = 16.5;
-const float kAgxPivot = 10.0 / 16.5; // middle grey's place among the stops, which becomes 1/2
+const float kAgxPivot = 10.0 / 16.5; // middle gray's place among the stops, which becomes 1/2
 const float kAgxSlope = 2.0;         // there
 const float kAgxToe = 3.0, kAgxShoulder = 3.25;
 

@@ -4,6 +4,7 @@
 // Linear radiance to the display: exposure, a tone mapper (TONE_MAPPER), sRGB encoding.
 
 #include "lib/color.glsl"
+#include "lib/exposure.glsl"
 #include "lib/fetch.glsl"
 #include "lib/frame.glsl"
 #include "lib/tone_map.glsl"
@@ -21,6 +22,6 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, frame.size)))
         return;
-    imageStore(display, p,
-               vec4(encodeSrgb(toneMap(params.exposure * fetch(composed, p).rgb)), 1.0));
+    vec3 mapped = toneMap(exposureOf(params.exposure) * fetch(composed, p).rgb);
+    imageStore(display, p, vec4(params.encodes != 0 ? encodeSrgb(mapped) : mapped, 1.0));
 }

@@ -1,7 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 
-// Turns rasterized ids into visibility samples (with the barycentrics of the pixel's center) and
+// Turns rasterized ids into visibility samples (with the barycentrics of the place
+// in the pixel at which this frame looks) and
 // gives every pixel its own seed. Forward projection may then replace some of both.
 
 #include "lib/frame.glsl"
@@ -40,6 +41,6 @@ void main() {
     }
     Affine m = instanceTransform(id.x - 1u, false);
     Triangle t = worldTriangle(triangleVertices(id.x - 1u, id.y), m);
-    vec2 b = barycentricsAt(t, worldRay(vec2(p) + 0.5));
+    vec2 b = barycentricsAt(t, worldRay(vec2(p) + 0.5 + frame.jitter));
     imageStore(visibility, p, uvec4(id, floatBitsToUint(b)));
 }

@@ -26,6 +26,8 @@ struct FrameUniforms {
     float regularization;        // least alpha of the second surface of a path
     vec3 previousCameraPosition; // that of this frame if there is no frame before
     float unused0;
+    vec2 jitter; // pixels from their centers: where in each of them the picture is seen
+    float unused1, unused2;
 };
 
 SHARED_END

@@ -99,6 +99,10 @@ private:
                     note(std::string(aov.info.name) + of, *image.texture);
         }
         note("display" + at, renderer.display(run.state));
+        for (const GpuTexture* kept :
+             {&t.filters[run.state].resolved.current(), &t.exposure.current()})
+            if (kept->size().x != 0)
+                note(kept->label() + at, *kept);
     }
 
     Camera camera_;
@@ -252,6 +256,16 @@ Outputs renderEverything(ShaderLibrary& shaders) {
                                                             : "signals apart";
         Settings settings = settingsOf(Filter::Asvgf, signal);
         settings.denoiser.kernel = int(Kernel::Box3x3);
+        renderFilterAt(desk, settings);
+    }
+    for (const TaaOrder order : {TaaOrder::BeforeToneMap, TaaOrder::AfterToneMap}) {
+        desk.chapter = order == TaaOrder::BeforeToneMap ? "smoothed" : "smoothed after tone map";
+        Settings settings = settingsOf(Filter::Asvgf);
+        settings.display.antiAliasing = int(AntiAliasing::Taa);
+        settings.display.taaOrder = int(order);
+        settings.display.autoExposure = 1;
+        settings.display.toneMapper =
+            order == TaaOrder::BeforeToneMap ? gpu::kToneAgx : gpu::kToneNeutral;
         renderFilterAt(desk, settings);
     }
     renderTogether(desk, SamplePlacement::Merged);

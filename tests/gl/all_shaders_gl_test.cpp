@@ -63,7 +63,12 @@ std::vector<Variant> allVariants() {
             defines = {{{"SOURCE", "Float4Texture"}},
                        {{"SOURCE", "Uint4Texture"}, {"SOURCE_IS_INTEGER", "1"}}};
         if (name == "post/tonemap.comp")
-            defines = {{}, {{"TONE_MAPPER", "1"}}, {{"TONE_MAPPER", "2"}}, {{"TONE_MAPPER", "3"}}};
+            defines = {{},
+                       {{"TONE_MAPPER", "1"}},
+                       {{"TONE_MAPPER", "2"}},
+                       {{"TONE_MAPPER", "3"}, {"AUTO_EXPOSURE", "1"}}};
+        if (name == "post/taa.comp")
+            defines = {{}, {{"AUTO_EXPOSURE", "1"}}};
         for (Defines& d : defines) {
             variants.push_back({name, d});
             d.emplace_back("FETCH_BY_IMAGE", "1");

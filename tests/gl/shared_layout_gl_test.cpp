@@ -62,8 +62,12 @@ const std::vector<SharedStruct>& sharedStructs() {
                       MEMBER(sigmaDepth), MEMBER(minHistory), MEMBER(unused0)),
         SHARED_STRUCT(MeanParams, "shared/post_params.h", MEMBER(scale), MEMBER(unused0),
                       MEMBER(unused1), MEMBER(unused2)),
-        SHARED_STRUCT(TonemapParams, "shared/post_params.h", MEMBER(exposure), MEMBER(unused0),
-                      MEMBER(unused1), MEMBER(unused2)),
+        SHARED_STRUCT(TonemapParams, "shared/post_params.h", MEMBER(exposure), MEMBER(encodes),
+                      MEMBER(unused0), MEMBER(unused1)),
+        SHARED_STRUCT(ExposureParams, "shared/post_params.h", MEMBER(adaptation), MEMBER(limit),
+                      MEMBER(unused0), MEMBER(unused1)),
+        SHARED_STRUCT(TaaParams, "shared/post_params.h", MEMBER(blend), MEMBER(clip),
+                      MEMBER(exposure), MEMBER(weighted)),
         SHARED_STRUCT(DebugViewParams, "shared/debug_view_params.h", MEMBER(map), MEMBER(channel),
                       MEMBER(pixelsPerTexel), MEMBER(isFloatBits), MEMBER(low), MEMBER(high),
                       MEMBER(unused0), MEMBER(unused1)),
@@ -89,7 +93,8 @@ const std::vector<SharedStruct>& sharedStructs() {
                       MEMBER(ambient), MEMBER(extent), MEMBER(size), MEMBER(strata), MEMBER(frame),
                       MEMBER(seed), MEMBER(historyValid), MEMBER(lightTriangleCount),
                       MEMBER(aoRadius), MEMBER(signalClamp), MEMBER(sampleIndex),
-                      MEMBER(regularization), MEMBER(previousCameraPosition), MEMBER(unused0)),
+                      MEMBER(regularization), MEMBER(previousCameraPosition), MEMBER(unused0),
+                      MEMBER(jitter), MEMBER(unused1), MEMBER(unused2)),
     };
     return structs;
 }

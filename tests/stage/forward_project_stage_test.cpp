@@ -17,6 +17,7 @@ struct Way {
     float meters;           ///< of the camera, from frame to frame
     double secondsPerFrame; ///< of the scene
     std::uint32_t firstFrame = 0;
+    int jitters = int(AntiAliasing::Off);
 };
 
 /// Two renderers on the same frames: one merges samples, the other has the visibility of each
@@ -31,6 +32,7 @@ ForwardVerdict follow(const Way& way, int frames) {
         for (SceneFrames* each : {&merging, &plain}) {
             if (i == 0)
                 each->frame = way.firstFrame;
+            each->settings.display.antiAliasing = way.jitters;
             shake(*each, start, i, way.meters);
             each->seconds = way.secondsPerFrame * i;
         }
@@ -84,6 +86,8 @@ TEST_CASE("samples land where their surface went, unless it is hidden or gone") 
          {Way{"tiny", {61, 37}, 0.06f, 0.0}, Way{"cornell", {61, 37}, 0.02f, 0.0},
           Way{"moving", {61, 37}, 0.0f, 0.2}, Way{"moving", {61, 37}, 0.04f, 0.2},
           Way{"oddities", {61, 37}, 0.05f, 0.1}, Way{"oddities", {61, 37}, 0.0f, 0.1},
+          Way{"oddities", {61, 37}, 0.05f, 0.1, 0, int(AntiAliasing::Taa)},
+          Way{"cornell", {61, 37}, 0.0f, 0.0, 0, int(AntiAliasing::Taa)},
           Way{"oddities", {16, 9}, 0.1f, 0.1}, Way{"tiny", {5, 3}, 0.1f, 0.0},
           Way{"hall", {16, 9}, 0.2f, 0.1}}) {
         CAPTURE(way.scene);

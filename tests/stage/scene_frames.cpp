@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "renderer/pipeline/jitter.h"
 #include "renderer/scene/procedural.h"
 #include "renderer/scene/scene_builder.h"
 #include "renderer/scene/shapes.h"
@@ -54,6 +55,7 @@ SceneFrame SceneFrames::next() {
     out.previousScene = started_ ? reference::SceneView(scene_, previousSeconds_) : out.scene;
     out.previousView = started_ ? previousView_ : out.view;
     out.hasHistory = started_;
+    out.jitter = glm::dvec2(jitterOf(settings.display, frame));
     for (const LightState& light : lights)
         out.lightScales.push_back(light.on ? glm::dvec3(light.tint) * double(light.power)
                                            : glm::dvec3(0.0));

@@ -18,6 +18,7 @@ struct SceneFrame {
     std::vector<glm::dvec3> lightScales; ///< by slot
     std::uint32_t frame = 0, runSeed = 0;
     bool hasHistory = false;
+    glm::dvec2 jitter{0.0}; ///< of all pixels, from their centers
 
     Image<glm::uvec2> ids;
     Image<glm::uvec4> visibility, previousVisibility, surface, samples;

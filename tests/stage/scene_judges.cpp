@@ -58,7 +58,7 @@ VisibilityVerdict judgeVisibility(const SceneFrame& frame) {
     const reference::View& view = frame.view;
     forEachPixel(view.size, [&](glm::ivec2 p) {
         const glm::uvec4 sample = frame.visibility(p);
-        const glm::dvec2 place = glm::dvec2(p) + 0.5;
+        const glm::dvec2 place = glm::dvec2(p) + 0.5 + frame.jitter;
         ++verdict.pixels;
         verdict.background += sample.x == 0;
         verdict.wrong += frame.seeds(p) != reference::packSeed(p, frame.frame);

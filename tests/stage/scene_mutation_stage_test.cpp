@@ -35,7 +35,9 @@ struct Pair {
 };
 
 double measureVisibility(ShaderLibrary& shaders) {
-    const Pair pair(shaders, settingsOf(Filter::None));
+    Settings settings = settingsOf(Filter::None);
+    settings.display.antiAliasing = int(AntiAliasing::Taa); // places that are no centers
+    const Pair pair(shaders, settings);
     const VisibilityVerdict verdict = judgeVisibility(pair.second);
     return std::max(
         {double(verdict.wrong), verdict.largestShift / 5e-4, verdict.largestWeight / 3e-5});
@@ -104,6 +106,12 @@ TEST_CASE("errors planted in the visibility stage do not pass") {
     const std::string file = "scene/resolve.comp";
     checkMutants(measureVisibility,
                  {{"the pixel's corner for its center", file, "vec2(p) + 0.5", "vec2(p)"},
+                  {"barycentrics of the center", file, "0.5 + frame.jitter", "0.5"},
+                  {"jitter with the wrong sign", file, "0.5 + frame.jitter", "0.5 - frame.jitter"},
+                  {"jitter of the raster upwards", "scene/visibility.vert", "vec2(-2.0, 2.0)",
+                   "vec2(-2.0, -2.0)"},
+                  {"jitter of twice the pixel", "scene/visibility.vert", "vec2(-2.0, 2.0)",
+                   "vec2(-4.0, 4.0)"},
                   {"x and y exchanged in the seed", file, "newSeed(p,", "newSeed(p.yx,"},
                   {"barycentrics exchanged", file, "floatBitsToUint(b)", "floatBitsToUint(b.yx)"},
                   {"seed with too few bits", "lib/seed.glsl", "kTileBits = 7", "kTileBits = 4"}});

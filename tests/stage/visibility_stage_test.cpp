@@ -9,7 +9,9 @@
 using namespace afterglow;
 using namespace afterglow::test;
 
-TEST_CASE("every pixel shows the nearest front face that the ray through its center meets") {
+TEST_CASE(
+    "every pixel shows the nearest front face that the ray through its center, or through its "
+    "jittered place, meets") {
     const GlCheck noGlMessages;
     struct Case {
         std::string scene;
@@ -17,17 +19,21 @@ TEST_CASE("every pixel shows the nearest front face that the ray through its cen
         float meters;   ///< of the camera's way from frame to frame
         double excused; ///< the greatest share of pixels
         double weights; ///< the greatest difference of barycentrics: more in small triangles
+        int jitters = int(AntiAliasing::Off);
     };
     // In the hall at this size most columns' facets are thinner than a pixel.
     for (const Case& c :
          {Case{"tiny", {61, 37}, 0.05f, 0.002, 3e-5}, Case{"cornell", {61, 37}, 0.02f, 0.002, 3e-5},
           Case{"moving", {61, 37}, 0.05f, 0.002, 3e-5},
           Case{"oddities", {61, 37}, 0.06f, 0.002, 3e-5},
+          Case{"oddities", {61, 37}, 0.06f, 0.002, 3e-5, int(AntiAliasing::Taa)},
+          Case{"cornell", {61, 37}, 0.02f, 0.002, 3e-5, int(AntiAliasing::Taa)},
           Case{"oddities", {16, 9}, 0.06f, 0.01, 3e-5}, Case{"tiny", {5, 3}, 0.05f, 0.0, 3e-5},
           Case{"hall", {16, 9}, 0.1f, 0.1, 3e-4}}) {
         CAPTURE(c.scene);
         CAPTURE(c.size.x);
         SceneFrames frames(sceneNamed(c.scene), c.size, settingsOf(Filter::None, Signal::Shadows));
+        frames.settings.display.antiAliasing = c.jitters;
         const Camera start = frames.camera;
         // Not the camera's own place: from there whole edges lie on centers of pixels.
         for (int i = 1; i < 4; ++i) {

@@ -228,6 +228,10 @@ TEST_CASE("a mistake in an experiment is named by file and place, with what was 
     CHECK(
         refusal("variants", R"([{ "name": "x", "filter": "svgf", "settings": { "alpha": 7 } }])") ==
         "small.json: variant x: setting 'alpha' is in [0.005, 1], not 7");
+    for (const char* setting : {R"("antiAliasing": "taa")", R"("autoExposure": "on")"})
+        CHECK(refusal("variants", R"([{ "name": "x", "filter": "svgf", "settings": { )" +
+                                      std::string(setting) + " } }]")
+                  .starts_with("small.json: variant x: an experiment measures "));
     CHECK(refusal("animated", R"("yes")") ==
           "small.json: animated: expected true or false, found \"yes\"");
     CHECK(refusal("description", "[[]]") ==

@@ -135,6 +135,8 @@ TEST_CASE("all that a reference depends on is in its key") {
         {"the signal", [](Parts& p) { p.settings.lighting.signal = int(Signal::Shadows); }},
         {"the radius", [](Parts& p) { p.settings.lighting.aoRadius = 0.05f; }},
         {"the clamp", [](Parts& p) { p.settings.lighting.signalClamp = 50.0f; }},
+        {"the places in the pixels",
+         [](Parts& p) { p.settings.display.antiAliasing = int(AntiAliasing::Taa); }},
         {"shaders", [](Parts& p) { p.maker.shaders = "shader"; }},
         {"vendor", [](Parts& p) { p.maker.vendor = "vendors"; }},
         {"renderer", [](Parts& p) { p.maker.renderer = "another"; }},
