@@ -59,10 +59,7 @@ Examples:
 }
 
 void View::run(HiddenContextFactory) {
-    Settings start = settingsOf(filter_, Signal::Both);
-    start.display.antiAliasing =
-        int(AntiAliasing::Taa); // to be looked at; what measures is without
-    o_.settings = picture_.changed(start);
+    o_.settings = picture_.changed(settingsOf(filter_, Signal::Both));
     o_.animate = !still_;
     runView(o_);
 }
