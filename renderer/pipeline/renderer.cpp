@@ -67,7 +67,7 @@ void Renderer::Impl::requireMemoryFor(glm::ivec2 size, Needed what) const {
         return;
     const ImageBytes perPixel = imageBytes(familyOf(Filter::Svgf).images);
     const double count = double(signals.size());
-    double needed = count * perPixel.filter;
+    double needed = what == Needed::Paths ? perPixel.paths : count * perPixel.filter;
     if (what == Needed::FrameAndFilter)
         needed += perPixel.frame + count * perPixel.signal;
     requireMemory(std::size_t(pixels * needed),
@@ -127,18 +127,9 @@ void Renderer::Impl::setSignals(const FrameSettings& settings) {
     signals = signalsOf(signal);
     division = pathsOf(signal);
     targets.setSignals(signals.size());
-    if (!division)
-        return;
-    if (targets.paths.empty())
-        targets.paths = PathTargets(targets.size);
-    SignalTargets& last = targets.signals.back();
-    if (division != PathPass::Division::Lobes)
-        last.motion = {};
-    else if (last.motion.size() != targets.size)
-        last.motion = GpuTexture("reflected motion", PixelFormat::RGBA32F, targets.size);
-    for (SignalTargets& of : targets.signals)
-        if (of.divisor.size() != targets.size)
-            of.divisor = GpuTexture("divisor", PixelFormat::RGBA32F, targets.size);
+    if (division && targets.paths.empty())
+        requireMemoryFor(targets.size, Needed::Paths);
+    targets.setPaths(division.has_value(), division == PathPass::Division::Lobes);
 }
 
 void Renderer::Impl::startStates(std::span<const FilterRun> runs) {

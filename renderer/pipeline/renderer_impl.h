@@ -33,7 +33,7 @@ struct Renderer::Impl {
             throw std::logic_error("Renderer: setScene() and resize() come before a frame");
     }
     FrameContext context() { return {.timer = timer, .uniforms = &frame.block()}; }
-    enum class Needed { FrameAndFilter, Filter };
+    enum class Needed { FrameAndFilter, Filter, Paths };
     void requireMemoryFor(glm::ivec2 size, Needed what) const;
     /// Returns the factor of a signal: of light on white surfaces the albedo.
     const GpuTexture& demodulation(std::size_t signal) const {

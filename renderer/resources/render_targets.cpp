@@ -93,6 +93,21 @@ void RenderTargets::setSignals(std::size_t count) {
             filter.own.resize(count);
 }
 
+void RenderTargets::setPaths(bool traced, bool mirrors) {
+    const auto set = [&](GpuTexture& image, const char* label, bool wanted) {
+        if (!wanted)
+            image = {};
+        else if (image.size() != size)
+            image = GpuTexture(label, PixelFormat::RGBA32F, size);
+    };
+    if (traced == paths.empty())
+        paths = traced ? PathTargets(size) : PathTargets();
+    for (SignalTargets& signal : signals) {
+        set(signal.divisor, "divisor", traced);
+        set(signal.motion, "reflected motion", mirrors && &signal == &signals.back());
+    }
+}
+
 void RenderTargets::swapHistories() {
     std::swap(surfaces.visibility, previousVisibility);
     std::swap(surfaces.guides, previousGuides);
@@ -154,13 +169,16 @@ ImageBytes imageBytes(std::span<const ImageDecl> filter) {
     const std::size_t one = targets.bytes();
     targets.setSignals(2);
     const std::size_t signal = targets.bytes() - one;
+    targets.setPaths(true, true);
+    const std::size_t paths = targets.bytes() - one - signal;
     const FilterTargets shown = FilterTargets(kSmall);
     std::size_t picture = 0;
     for (const GpuTexture* texture : shown.all())
         picture += texture->bytes();
     return {.frame = perPixel(one - signal - picture),
             .signal = perPixel(signal),
-            .filter = perPixel(bytesOf(filter, kSmall) + picture)};
+            .filter = perPixel(bytesOf(filter, kSmall) + picture),
+            .paths = perPixel(paths)};
 }
 
 } // namespace afterglow

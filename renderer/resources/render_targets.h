@@ -63,6 +63,9 @@ struct RenderTargets {
     /// Makes so many signals; further ones begin with zeros.
     void setSignals(std::size_t count);
     void makeExposure(); ///< none, unless there is one
+    /// Makes the images of paths, or releases them where none are traced. With `mirrors`, the last
+    /// signal has a motion of its own.
+    void setPaths(bool traced, bool mirrors);
     /// Returns the images that the next frame reads, without the histories of filters
     /// and of what is shown.
     std::vector<GpuTexture*> kept();
@@ -108,6 +111,7 @@ struct ImageBytes {
     double frame;  ///< whatever signals and filters there are
     double signal; ///< each
     double filter; ///< each, of each signal
+    double paths;  ///< where they are traced, as two signals
 };
 ImageBytes imageBytes(std::span<const ImageDecl> filter);
 

@@ -136,3 +136,29 @@ TEST_CASE("the light can be divided anew between two frames") {
     for (const glm::vec4& pixel : moments.pixels())
         CHECK(pixel.z <= 2.0f);
 }
+
+TEST_CASE("a division of the light leaves nothing behind for the next one") {
+    const GlCheck noGlMessages;
+    const auto rendered = [](Signal first) {
+        Sequence sequence(makeProceduralScene("gallery"), kSize, settingsOf(Filter::Svgf, first));
+        const Camera start = sequence.camera;
+        for (int frame = 0; frame < 6; ++frame) {
+            sequence.camera = start;
+            sequence.camera.position.x += 0.04f * float(frame); // over the polished floor
+            if (frame == 2) {
+                sequence.settings.lighting.signal = int(Signal::Separate);
+                sequence.renderer().resetHistory();
+            }
+            sequence.next();
+        }
+        return sequence;
+    };
+    const Sequence from = rendered(Signal::Split), always = rendered(Signal::Separate);
+    for (const std::size_t signal : {0, 1})
+        CHECK(differingPixels(rawOf(from, signal), rawOf(always, signal)) == 0);
+    const auto accumulated = [](const Sequence& of) {
+        return imageOf(of.targets(), svgf::kMoments, 0, 1).read<glm::vec4>();
+    };
+    CHECK(differingPixels(accumulated(from), accumulated(always)) == 0);
+    CHECK(from.targets().bytes() == always.targets().bytes());
+}
