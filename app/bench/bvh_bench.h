@@ -9,7 +9,7 @@
 
 namespace afterglow {
 
-/// How long trees take to make, and how good they are.
+/// The build and refit times of trees, and their SAH cost.
 struct BvhFigures {
     unsigned threads = 1;
     std::size_t triangles = 0, bytes = 0;

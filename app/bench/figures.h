@@ -14,7 +14,7 @@ namespace afterglow {
 /// The version of the shape of a file of figures: a change that readers must know raises it.
 inline constexpr int kBenchSchema = 1;
 
-/// Which way a figure is better. Facts, and what belongs to another program, have none.
+/// The direction in which a figure is better. Facts and other programs' figures have none.
 enum class Better { Less, More, None };
 
 /// One number of a benchmark.

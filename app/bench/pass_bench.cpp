@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kFramesOfRound = 8, kMostRounds = 8;
 
-/// What was measured of one filter so far.
+/// The measurements of one filter so far.
 struct Samples {
     std::vector<double> frame, rays;
     struct Pass {

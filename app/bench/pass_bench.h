@@ -10,7 +10,7 @@
 
 namespace afterglow {
 
-/// What is rendered, again and again: one moment of a scene from its first camera.
+/// One moment of a scene, seen from its first camera, that is rendered repeatedly.
 struct BenchFrames {
     Settings settings; ///< all but the filter
     std::uint32_t seed = 0;

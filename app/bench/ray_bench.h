@@ -11,7 +11,7 @@
 
 namespace afterglow {
 
-/// How fast the rays of one kind are traced.
+/// The tracing rate of one kind of ray.
 struct RayFigures {
     RayKind kind;
     std::size_t rays = 0, hits = 0;

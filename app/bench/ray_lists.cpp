@@ -77,6 +77,8 @@ void RayLists::listOwn(const char* define, RayList& to) {
     if (&to == &bounces_) {
         reads.emplace_back("surface", call_.in.surfaces.surface);
         reads.emplace_back("guides", call_.in.surfaces.guides);
+        reads.emplace_back("visibility", call_.in.surfaces.visibility);
+        reads.emplace_back("instances", call_.scene.instances);
     } else if (kind_ == RayKind::BounceShadow) {
         const SceneGpu& scene = call_.scene;
         reads.insert(reads.end(), {{"bounces", bounces_.rays},
@@ -88,14 +90,14 @@ void RayLists::listOwn(const char* define, RayList& to) {
                                    {"lightTriangles", scene.lightTriangles},
                                    {"lightScales", scene.lightScales}});
     }
-    const Binding writes[] = {{"rays", to.rays}, {"rayCounts", to.counts}};
+    const Binding writes[] = {
+        {"rays", to.rays}, {"rayCounts", to.counts}, {"counters", call_.out.counters}};
     shaders_.compute("bench/rays.comp", {{define, "1"}})
         .dispatch(size_, std::span<const Binding>(reads), writes);
 }
 
 void RayLists::traceOwn(const RayList& rays, TexelBuffer& hits, bool anyHit) {
-    const Defines defines = anyHit ? Defines{{"ANY_HIT", "1"}} : Defines{};
-    shaders_.compute("bench/trace.comp", defines)
+    shaders_.compute(anyHit ? "bench/trace_any.comp" : "lighting/trace_closest.comp")
         .dispatch(invocationsOf(size_),
                   {{"bvhRecords", call_.scene.bvhRecords},
                    {"rays", rays.rays},
@@ -123,7 +125,7 @@ std::vector<std::uint8_t> RayLists::traceForHits() {
     const auto all = hits_.read<glm::uvec4>();
     std::vector<std::uint8_t> hits;
     forEachPlace(current(),
-                 [&](std::size_t place) { hits.push_back(all[place].y != gpu::kBvhNoInstance); });
+                 [&](std::size_t place) { hits.push_back(all[place].x != gpu::kBvhNoInstance); });
     return hits;
 }
 

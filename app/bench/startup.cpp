@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Where drivers keep compiled shaders: Mesa, what falls back on the user's cache, NVIDIA.
+/// Environment variables for drivers' shader caches: Mesa, the user's cache, NVIDIA.
 constexpr std::array kCacheVariables{"MESA_SHADER_CACHE_DIR", "XDG_CACHE_HOME",
                                      "__GL_SHADER_DISK_CACHE_PATH"};
 /// Set in the processes that are started here, which must not start any.

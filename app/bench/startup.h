@@ -9,7 +9,7 @@
 
 namespace afterglow {
 
-/// When a process had come how far, by the clock that all processes of a machine share.
+/// Points in time of a start, by the clock that all processes of a machine share.
 struct StartupTimes {
     using Point = std::chrono::steady_clock::time_point;
     Point command;       ///< the command begins: libraries are loaded, options are read

@@ -46,7 +46,7 @@ public:
                  const std::string& variant, FrameMaps* maps = nullptr);
 
 private:
-    /// What one part has found.
+    /// The rows and maps of one part.
     struct Findings {
         std::vector<std::pair<std::string, double>> rows{};
         FrameMaps maps{};

@@ -34,7 +34,7 @@ std::optional<std::size_t> drawCurves(const PanelContext& panel, const CurveChar
 /// A line from left to right in the style of a probe, for a legend.
 void drawLineSample(ImDrawList& draw, ImVec2 from, float length, std::size_t probe, ImU32 tint);
 
-/// How one pane answers a change of light, at the active probe.
+/// The response of one pane to a change of light, at the active probe.
 struct PaneResponse {
     std::size_t pane = 0;
     LiveResponse response;

@@ -103,7 +103,7 @@ private:
     void inspectPixel(bool rendered);
     Pictures::Sources sources() { return {renderer_, state, capture_, oracle_}; }
 
-    // What was requested, in workbench_files.cpp.
+    // Serve requests for files; in workbench_files.cpp.
     void serveRequests();
     void saveImageFiles();
     void saveCurves();

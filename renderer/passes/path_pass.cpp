@@ -30,7 +30,7 @@ struct PathPass::Call {
     glm::ivec2 size() const { return in.seeds.size(); }
     bool isOfLobes() const { return division == Division::Lobes; }
 
-    /// What surfaces and lights are read from, by programs that know the visible point.
+    /// Returns the inputs of programs that know the visible point.
     std::vector<Binding> visiblePoint() const {
         std::vector<Binding> reads = surfaces(frame, scene, in.surfaces, specularAlbedo);
         reads.emplace_back("seeds", in.seeds);
@@ -68,7 +68,7 @@ void PathPass::run(FrameContext& frame, const SceneGpu& scene, const Inputs& in,
             .dispatch(call.size(), {frame.block()}, {{"raw", *raw}, {"counters", out.counters}});
 }
 
-// The light that reaches the visible surface from a point on a light.
+// Adds the light that reaches the visible surface from a point on a light.
 void PathPass::light(const Call& call) {
     std::vector<Binding> reads = call.visiblePoint();
     call.addLights(reads);
@@ -79,7 +79,7 @@ void PathPass::light(const Call& call) {
     shaders_.compute("lighting/path_light.comp", definesOf(call.division))
         .dispatch(call.size(), std::span<const Binding>(reads), writes);
 
-    // What a light sample gives to the second of two segments is nothing.
+    // The second of two segments gets nothing from this light sample.
     const std::size_t lit = call.isOfLobes() ? 2 : 1;
     reads = {{"bvhRecords", call.scene.bvhRecords},
              {"rays", call.out.rays.rays},
@@ -91,7 +91,7 @@ void PathPass::light(const Call& call) {
         .dispatch(invocationsOf(call.size()), std::span<const Binding>(reads), writes);
 }
 
-// The directions in which the visible surface looks for light, and what lies there.
+// Samples a direction at the visible surface and finds the closest hit along it.
 void PathPass::scatter(const Call& call) {
     const std::vector<Binding> reads = call.visiblePoint();
     PathTargets& paths = call.out.paths;
@@ -111,7 +111,7 @@ void PathPass::scatter(const Call& call) {
                   {{"hits", paths.hits}});
 }
 
-// What the surfaces there emit, and send on from a point on a light.
+// Adds the light that the second surfaces emit, and that they scatter from a point on a light.
 void PathPass::bounce(const Call& call) {
     PathTargets& paths = call.out.paths;
     std::vector<Binding> reads{call.frame.block(),

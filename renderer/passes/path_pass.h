@@ -15,7 +15,7 @@ namespace afterglow {
 /// all lobes of the materials. See docs/pipeline.md, "Paths". Reads the frame block.
 class PathPass {
 public:
-    /// Which parts of the light make which signal: `kPath...` in shared/path.h.
+    /// The signals that the parts of the light form: `kPath...` in shared/path.h.
     enum class Division { Whole, Lobes, Segments };
     /// Returns the number of signals of a division.
     static std::size_t signalsOf(Division division) { return division == Division::Whole ? 1 : 2; }

@@ -26,10 +26,9 @@ struct LightingSettings {
     int gradientSamples = int(SamplePlacement::Merged);
 };
 
-/// How edges are smoothed: not at all, or over time, by a frame that looks through another place of
-/// each pixel every time.
+/// The anti-aliasing: none, or over time, with jittered frames.
 enum class AntiAliasing { Off, Taa };
-/// Where frames are averaged over time: in linear radiance, or in what the display shows.
+/// The color in which TAA averages frames: linear radiance, or display values.
 enum class TaaOrder { BeforeToneMap, AfterToneMap };
 
 struct DisplaySettings {

@@ -8,7 +8,7 @@
 
 namespace afterglow {
 
-/// What a path leaves for its next step. Nothing of it outlives a frame.
+/// The intermediate results of a path's steps. None outlives a frame.
 struct PathTargets {
     PathTargets() = default;
     explicit PathTargets(glm::ivec2 size);

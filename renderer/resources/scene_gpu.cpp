@@ -125,7 +125,7 @@ void SceneGpu::collectEmitters(const Scene& scene, const Pose& rest) {
             const Mesh& mesh = scene.meshes[instance.mesh];
             const glm::mat4& m = rest.worldFromNode[instance.node];
             records_[index].firstLightTriangle = std::uint32_t(emitters_.size());
-            // Those without power too: a hit finds its triangle by its number.
+            // Triangles without power are kept: a hit finds its triangle by its number.
             for (const glm::uvec3& t : mesh.triangles) {
                 Emitter emitter{instance.node,
                                 std::uint32_t(slot),

@@ -80,3 +80,10 @@ vec3 pointOn(Triangle t, vec2 barycentrics) {
     precise vec3 point = t.corner + barycentrics.x * t.edge1 + barycentrics.y * t.edge2;
     return point;
 }
+
+// The interpolated normal of a visibility sample, on the outer side of its triangle.
+vec3 shadingNormal(uvec3 vertex, Affine m, vec2 barycentrics) {
+    return transformNormal(m, (1.0 - barycentrics.x - barycentrics.y) * vertexNormal(vertex.x) +
+                                  barycentrics.x * vertexNormal(vertex.y) +
+                                  barycentrics.y * vertexNormal(vertex.z));
+}

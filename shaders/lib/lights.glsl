@@ -16,6 +16,24 @@ struct LightSample {
     bool doubleSided;
 };
 
+// The point of a light triangle with these barycentric weights of vertices 1 and 2.
+LightSample lightAt(int triangle, vec2 weights) {
+    int first = triangle * int(kTexelsPerLightTriangle);
+    vec3 corner = uintBitsToFloat(fetchBuffer(lightTriangles, first)).xyz;
+    vec4 edge1 = uintBitsToFloat(fetchBuffer(lightTriangles, first + 1));
+    uvec4 edge2 = fetchBuffer(lightTriangles, first + 2);
+    uvec4 emitted = fetchBuffer(lightTriangles, first + 3);
+    vec3 e2 = uintBitsToFloat(edge2).xyz;
+    LightSample light;
+    light.point = corner + weights.x * edge1.xyz + weights.y * e2;
+    light.areaNormal = cross(edge1.xyz, e2);
+    light.emission =
+        uintBitsToFloat(emitted).rgb * uintBitsToFloat(fetchBuffer(lightScales, int(edge2.w))).rgb;
+    light.probability = edge1.w;
+    light.doubleSided = emitted.w != 0u;
+    return light;
+}
+
 // The first triangle whose cumulative probability exceeds u. Nominal powers make the distribution,
 // so a toggled light changes nobody's pick.
 int pickLightTriangle(float u, int count) {
@@ -32,21 +50,7 @@ int pickLightTriangle(float u, int count) {
 }
 
 LightSample sampleLights(vec3 u, int count) {
-    int first = pickLightTriangle(u.x, count) * int(kTexelsPerLightTriangle);
-    vec3 corner = uintBitsToFloat(fetchBuffer(lightTriangles, first)).xyz;
-    vec4 edge1 = uintBitsToFloat(fetchBuffer(lightTriangles, first + 1));
-    uvec4 edge2 = fetchBuffer(lightTriangles, first + 2);
-    uvec4 emitted = fetchBuffer(lightTriangles, first + 3);
-
     // Uniform over the triangle; Turk 1990.
     float root = sqrt(u.y);
-    vec3 e2 = uintBitsToFloat(edge2).xyz;
-    LightSample light;
-    light.point = corner + (root * (1.0 - u.z)) * edge1.xyz + (root * u.z) * e2;
-    light.areaNormal = cross(edge1.xyz, e2);
-    light.emission =
-        uintBitsToFloat(emitted).rgb * uintBitsToFloat(fetchBuffer(lightScales, int(edge2.w))).rgb;
-    light.probability = edge1.w;
-    light.doubleSided = emitted.w != 0u;
-    return light;
+    return lightAt(pickLightTriangle(u.x, count), vec2(root * (1.0 - u.z), root * u.z));
 }

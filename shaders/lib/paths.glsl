@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the steps of a path share: docs/pipeline.md, "Paths". PATH_DIVISION says which parts of the
-// light make which signal.
+// Functions that the steps of a path share: docs/pipeline.md, "Paths". PATH_DIVISION selects the
+// signals that the parts of the light form.
 
 #include "lib/bsdf.glsl"
 #include "lib/lights.glsl"
@@ -59,7 +59,7 @@ Lobes sampleDirect(Bsdf b, vec3 origin, vec3 u, bool mis, out Ray ray) {
     return sent;
 }
 
-// What each signal is divided by, and what it is multiplied with after the filter.
+// Returns the divisors of both signals; after the filter they are multiplied with the same.
 void divisorsOf(Bsdf b, out vec3 first, out vec3 second) {
 #if PATH_DIVISION == 1
     first = max(b.diffuse, vec3(kLeastDivisor));

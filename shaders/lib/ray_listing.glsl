@@ -2,6 +2,7 @@
 // Lists the rays of a workgroup of kSegmentRays invocations without gaps: shared/ray_list.h.
 
 #include "lib/counters.glsl"
+#include "lib/encoding.glsl"
 #include "lib/frame.glsl"
 #include "lib/tile.glsl"
 
@@ -14,6 +15,7 @@ struct Ray {
 };
 
 const Ray kNoRay = Ray(vec3(0.0), vec3(0.0), -1.0);
+const float kFar = 1e30;         // of rays that end nowhere
 const float kShadowEnd = 0.9995; // a shadow ray ends before the light that it goes to
 
 // Rays start off the surface by a fraction of the scene, so that they do not hit where they come
@@ -48,8 +50,7 @@ void listRay(Ray ray, ivec2 pixel) {
     if (matters) {
         int texel = int((segment * kSegmentRays + before) * kTexelsPerRay);
         imageStore(rays, texel, floatBitsToUint(vec4(ray.origin, ray.tMax)));
-        imageStore(rays, texel + 1,
-                   uvec4(floatBitsToUint(ray.direction), uint(pixel.x) | (uint(pixel.y) << 16u)));
+        imageStore(rays, texel + 1, uvec4(floatBitsToUint(ray.direction), packPixel(pixel)));
     }
     if (lane == 0u) {
         imageStore(rayCounts, int(segment), uvec4(all, 0u, 0u, 0u));

@@ -26,7 +26,7 @@ VisiblePoint visiblePoint(ivec2 p, vec3 eye) {
     return VisiblePoint(bsdf, offsetOrigin(position, geometric), instance);
 }
 
-// Where a pixel's sample is seen from. A gradient sample, whose seed is that of the frame before,
+// Returns the eye of a pixel's sample. A gradient sample, whose seed is that of the frame before,
 // is shaded as it was then: a change of view is no change of light.
 vec3 eyeOf(uint seed) {
     bool isCarried = seedFrame(seed) != (frame.sampleIndex & (0xffffffffu >> (2 * kTileBits)));

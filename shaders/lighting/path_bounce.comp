@@ -21,7 +21,7 @@ Float4Texture(weight1);
 #endif
 
 layout(rgba32f) uniform image2D raw0;
-// What the signals get where the shadow ray reaches its light.
+// The light that is added to the signals where the shadow ray is not blocked.
 writeonly uniform image2D pending0;
 #if PATH_DIVISION == 1
 layout(rgba32f) uniform image2D raw1;
@@ -40,9 +40,7 @@ Hit hitAt(uvec4 found, vec3 direction) {
     Affine m = instanceTransform(found.x, false);
     Triangle t = worldTriangle(vertex, m);
     vec3 geometric = normalize(cross(t.edge1, t.edge2));
-    vec3 normal =
-        transformNormal(m, (1.0 - b.x - b.y) * vertexNormal(vertex.x) +
-                               b.x * vertexNormal(vertex.y) + b.y * vertexNormal(vertex.z));
+    vec3 normal = shadingNormal(vertex, m, b);
     geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
     normal = dot(normal, geometric) < 0.0 ? -normal : normal;
     return Hit(found.x, found.y, pointOn(t, b), normal, geometric);
@@ -53,18 +51,13 @@ vec3 emittedBy(Hit hit, vec3 origin, vec3 direction, float pdf) {
     uvec4 links = instanceLinks(hit.instance);
     if (links.z == kNoLight)
         return uintBitsToFloat(fetchBuffer(materials, int(links.y * kTexelsPerMaterial) + 1)).rgb;
-    int first = int((links.w + hit.triangle) * kTexelsPerLightTriangle);
-    vec4 edge1 = uintBitsToFloat(fetchBuffer(lightTriangles, first + 1));
-    uvec4 edge2 = fetchBuffer(lightTriangles, first + 2);
-    uvec4 emitted = fetchBuffer(lightTriangles, first + 3);
-    vec3 areaNormal = cross(edge1.xyz, uintBitsToFloat(edge2.xyz));
-    bool doubleSided = emitted.w != 0u;
-    if (!doubleSided && dot(direction, areaNormal) >= 0.0)
+    LightSample light = lightAt(int(links.w + hit.triangle), vec2(0.0));
+    if (!light.doubleSided && dot(direction, light.areaNormal) >= 0.0)
         return vec3(0.0);
     vec3 way = hit.position - origin;
-    float density = lightDensity(dot(way, way), direction, areaNormal, doubleSided, edge1.w);
-    return uintBitsToFloat(emitted.rgb) *
-           uintBitsToFloat(fetchBuffer(lightScales, int(edge2.w))).rgb * misWeight(pdf, density);
+    float density = lightDensity(dot(way, way), direction, light.areaNormal, light.doubleSided,
+                                 light.probability);
+    return light.emission * misWeight(pdf, density);
 }
 
 void main() {
@@ -77,7 +70,7 @@ void main() {
         vec3 origin = uintBitsToFloat(fetchBuffer(bounces, int(index * kTexelsPerRay)).xyz);
         uvec4 to = fetchBuffer(bounces, int(index * kTexelsPerRay) + 1);
         vec3 direction = uintBitsToFloat(to.xyz);
-        p = ivec2(to.w & 0xffffu, to.w >> 16u);
+        p = unpackPixel(to.w);
         uvec4 found = fetchBuffer(hits, int(index));
         vec4 w0 = fetch(weight0, p);
 

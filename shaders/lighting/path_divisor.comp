@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 
-// What the signals of paths are multiplied with after the filter: the albedo of what they left.
+// Computes the factors of path signals after the filter: the albedos that they were divided by.
 
 #include "lib/visible_point.glsl"
 

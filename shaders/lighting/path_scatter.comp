@@ -17,8 +17,6 @@ writeonly uniform image2D weight1; // a: 1 if the direction is of the specular l
 writeonly uniform image2D distances;
 #endif
 
-const float kFar = 1e30;
-
 void main() {
     ivec2 p = segmentPixel();
     Ray ray = kNoRay;

@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 
-// Where the light that a surface mirrors was in the frame before. A mirror image lies behind its
+// Computes the motion vectors of mirror images. A mirror image lies behind its
 // mirror, as far as the mirrored thing in front of it, and moves as if it stood there. Zimmer et
 // al. 2015, "Path-space Motion Estimation and Decomposition for Robust Animation Filtering", EGSR,
 // in the simple form of one flat mirror; docs/pipeline.md tells the rule.

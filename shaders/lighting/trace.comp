@@ -10,6 +10,7 @@
 #define SIGNALS 1
 #endif
 
+#include "lib/encoding.glsl"
 #include "lib/fetch.glsl"
 #include "lib/tile.glsl"
 #include "shared/ray_list.h"
@@ -44,7 +45,7 @@ void main() {
     vec4 from = uintBitsToFloat(fetchBuffer(rays, texel));
     uvec4 to = fetchBuffer(rays, texel + 1);
     bool hidden = occluded(from.xyz, uintBitsToFloat(to.xyz), from.w);
-    ivec2 p = ivec2(to.w & 0xffffu, to.w >> 16u);
+    ivec2 p = unpackPixel(to.w);
 #ifdef SHADOWS
     if (hidden) {
         imageStore(raw, p, vec4(0.0));

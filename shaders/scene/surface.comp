@@ -45,9 +45,7 @@ void main() {
     vec3 before = pointOn(worldTriangle(vertex, instanceTransform(instance, true)), b);
 
     vec3 geometric = normalize(cross(t.edge1, t.edge2));
-    vec3 normal =
-        transformNormal(now, (1.0 - b.x - b.y) * vertexNormal(vertex.x) +
-                                 b.x * vertexNormal(vertex.y) + b.y * vertexNormal(vertex.z));
+    vec3 normal = shadingNormal(vertex, now, b);
     vec3 toCamera = frame.cameraPosition - position;
     geometric = dot(geometric, toCamera) < 0.0 ? -geometric : geometric;
     normal = dot(normal, geometric) < 0.0 ? -normal : normal;

@@ -11,6 +11,6 @@ uniform mat4 worldFromObject;
 
 void main() {
     gl_Position = frame.clipFromWorld * (worldFromObject * vec4(position, 1.0));
-    // What is to be seen at a pixel's jittered place moves to its center.
+    // Moves a pixel's jittered place to its center.
     gl_Position.xy += gl_Position.w * frame.jitter * vec2(-2.0, 2.0) / vec2(frame.size);
 }

@@ -69,7 +69,7 @@ std::vector<Image<glm::vec4>> converged(Scene scene, glm::ivec2 size, Signal sig
     return signals;
 }
 
-/// What changes in the strata of a moving camera's frames.
+/// The gradients in the strata of a moving camera's frames.
 struct Change {
     int samples = 0;
     double largest = 0.0, sum = 0.0; ///< |delta| / Delta of samples; lambda

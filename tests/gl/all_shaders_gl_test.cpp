@@ -57,8 +57,6 @@ std::vector<Variant> allVariants() {
                 {{"PATH_DIVISION", "0"}}, {{"PATH_DIVISION", "1"}}, {{"PATH_DIVISION", "2"}}};
         if (name == "bench/rays.comp")
             defines = {{{"PRIMARY", "1"}}, {{"BOUNCE", "1"}}, {{"BOUNCE_SHADOW", "1"}}};
-        if (name == "bench/trace.comp")
-            defines = {{}, {{"ANY_HIT", "1"}}};
         if (name == "post/debug_view.comp")
             defines = {{{"SOURCE", "Float4Texture"}},
                        {{"SOURCE", "Uint4Texture"}, {"SOURCE_IS_INTEGER", "1"}}};

@@ -10,7 +10,7 @@ using namespace afterglow;
 using namespace afterglow::reference;
 using namespace afterglow::test;
 
-// What the reference of paths makes of its numbers, its parts and its doubts.
+// Tests of the path reference itself: random numbers, parts, doubts.
 
 TEST_CASE("the numbers of a path are Halton's in bases of their own, those of x2 shifted") {
     constexpr std::uint32_t kBases[] = {2, 3, 5, 7, 11, 13, 2, 3, 5};

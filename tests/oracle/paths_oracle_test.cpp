@@ -76,7 +76,7 @@ Bsdf bsdfOf(const PathSurface& surface) {
             glm::normalize(surface.eye - surface.lit.position)};
 }
 
-/// What the lamp of `underLamp` gives a surface of the floor, by lobe: a grid over the lamp.
+/// Integrates the lamp of `underLamp` at a surface of the floor, by lobe, on a grid over the lamp.
 Lobes lampByQuadrature(const PathScene& scene, const PathSurface& surface, double radiance) {
     constexpr int n = 600;
     const Bsdf bsdf = bsdfOf(surface);
@@ -261,7 +261,7 @@ TEST_CASE("regularization off is exactly none, and vanishes with samples") {
         CHECK(sameBits(narrow.parts.indirect.sum(), plain.parts.indirect.sum()));
         in.regularization = 0.8;
         const PathSample wide = tracePath(in, x1, numbers);
-        // What x1 scatters is not touched.
+        // The scattering at x1 is unchanged.
         CHECK(sameBits(wide.parts.direct.sum(), plain.parts.direct.sum()));
         CHECK(sameBits(wide.parts.bounced.sum(), plain.parts.bounced.sum()));
         CHECK(sameBits(wide.weight.sum(), plain.weight.sum()));

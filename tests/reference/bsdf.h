@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-// How surfaces scatter light along paths: docs/pipeline.md, "Paths", "Surfaces" and "Directions".
+// The BSDF of paths: docs/pipeline.md, "Paths", "Surfaces" and "Directions".
 // Heitz 2014, "Understanding the Masking-Shadowing Function"; Heitz 2018, "Sampling the GGX
 // Distribution of Visible Normals".
 

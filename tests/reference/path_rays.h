@@ -4,7 +4,7 @@
 #include "tests/reference/bsdf.h"
 #include "tests/reference/lighting.h"
 
-// What rays of a path meet, and the surfaces there: docs/pipeline.md, "Paths" and "Rays".
+// The hits of a path's rays and the surfaces there: docs/pipeline.md, "Paths" and "Rays".
 
 namespace afterglow::reference {
 
@@ -59,7 +59,7 @@ inline RayHit closestHit(const SceneView& scene, const glm::dvec3& o, const glm:
     return closest;
 }
 
-/// Whether a small shift of the ray may change what it hits, or where by much: it passes an edge
+/// Returns whether a small shift of the ray may change its hit: it passes an edge
 /// within `margin`, meets its triangle edge-on, or meets another one at nearly the same place.
 inline bool nearlyAnotherHit(const SceneView& scene, const glm::dvec3& o, const glm::dvec3& l,
                              const RayHit& closest, double margin) {

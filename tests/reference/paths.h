@@ -25,7 +25,7 @@ inline double regularizationOf(double kappa, std::uint32_t k) {
     return kappa * std::pow(double(k) + 1.0, -1.0 / 6.0);
 }
 
-/// Where a sample is seen from: one whose seed is of another frame is a gradient sample.
+/// Returns the eye of a sample; one whose seed is of another frame is a gradient sample.
 inline glm::dvec3 eyeOf(const Seed& seed, std::uint32_t frame, const glm::dvec3& eye,
                         const glm::dvec3& previousEye) {
     return seed.frame == frame % (1u << 18) ? eye : previousEye;
@@ -45,7 +45,7 @@ struct PathNumbers {
     }
 };
 
-/// What a path brings, before any division.
+/// The light of a path, before any division.
 struct PathParts {
     Lobes albedo;   ///< D and E of x1
     Lobes direct;   ///< N: light samples of x1, weighted against the direction
@@ -55,7 +55,7 @@ struct PathParts {
 
 struct PathSample {
     PathParts parts;
-    /// How much the parts change by shifts as small as 32 bits make them; if asked for.
+    /// The change of the parts under shifts as small as 32-bit rounding; if asked for.
     PathParts spread;
     bool doubtful = false; ///< so near a decision that 32 bits may decide otherwise; if asked for
 
@@ -120,8 +120,7 @@ inline LightArrival lightSample(const PathInputs& in, const LitSurface& lit, con
     return out;
 }
 
-/// What a triangle emits towards a ray that meets it along l, and the density of light samples
-/// there.
+/// The radiance of a triangle against a ray along l, and the density of light samples there.
 struct Emission {
     glm::dvec3 radiance{0.0};
     double density = 0.0;
@@ -203,7 +202,7 @@ inline void raiseTo(Lobes& most, const Lobes& a, const Lobes& b) {
     most.specular = glm::max(most.specular, glm::abs(a.specular - b.specular));
 }
 
-/// How the parts change where the inputs are shifted by a few roundings of 32 bits: numbers by
+/// Returns the change of the parts under shifts of the inputs by a few 32-bit roundings: numbers by
 /// 3e-7 (sums of three below 1), directions by 1.2e-7, places by that times extent.
 inline PathParts spreadOf(const PathInputs& in, const PathSurface& x1, const PathNumbers& numbers,
                           const PathParts& parts) {

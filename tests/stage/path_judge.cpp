@@ -16,7 +16,7 @@ using reference::Division;
 
 /// Of a value, whatever the scene: roundings of some hundred operations of 32 bits.
 constexpr double kTolerance = 1e-4, kLeastValue = 0.01;
-/// How often the change by a shift as small as a rounding is allowed: reference::spreadOf().
+/// The tolerance in multiples of the change by a rounding: reference::spreadOf().
 constexpr double kSpreads = 4.0;
 
 Division divisionOf(int signal) {
@@ -154,7 +154,7 @@ private:
         verdict_.hitLight += path.hitLight;
     }
 
-    /// What a signal is multiplied with has this frame's eye, also of a gradient sample.
+    /// Judges the divisors, which have this frame's eye, also of a gradient sample.
     void judgeDivisors(glm::ivec2 p, const Start& start) {
         const reference::PathSurface& surface = start.surface;
         const reference::Bsdf bsdf(surface.material, surface.lit.shading, surface.lit.geometric,

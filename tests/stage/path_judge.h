@@ -23,7 +23,7 @@ PathImages pictureOf(const RenderTargets& targets);
 /// Of the gradient samples that are shaded beside the picture.
 PathImages samplesBesideOf(const RenderTargets& targets);
 
-/// What paths are traced in.
+/// The scene, pose and lights in which paths are traced.
 struct PathMoment {
     const Scene& source;
     const reference::SceneView& rest; ///< at time 0

@@ -17,7 +17,7 @@ namespace {
 
 constexpr glm::ivec2 kSize{61, 37};
 
-/// What the stage test holds against frames of one division: two frames of the glossy scene, in
+/// Measures the stage test's difference for one division: two frames of the glossy scene, in
 /// which camera, bodies and a lamp differ, and the gradient samples of the second one.
 double measure(ShaderLibrary& shaders, Signal signal) {
     Settings settings = settingsOf(Filter::Asvgf, signal);
@@ -154,15 +154,15 @@ TEST_CASE("errors planted in the second segment of paths do not pass") {
          {"lamps that are met without their weight", kBounce, "misWeight(pdf, density)", "1.0"},
          {"the wrong side of the weight", kBounce, "misWeight(pdf, density)",
           "misWeight(density, pdf)"},
-         {"every lamp as bright as it is made", kBounce,
-          "uintBitsToFloat(fetchBuffer(lightScales, int(edge2.w))).rgb",
-          "(1.0 + 1e-30 * uintBitsToFloat(fetchBuffer(lightScales, int(edge2.w))).rgb)"},
+         {"every lamp as bright as it is made", kBounce, "light.emission * misWeight",
+          "uintBitsToFloat(fetchBuffer(materials, int(links.y * kTexelsPerMaterial) + 1)).rgb * "
+          "misWeight"},
          {"the light of a lamp's back", kBounce,
-          "!doubleSided && dot(direction, areaNormal) >= 0.0", "false"},
+          "!light.doubleSided && dot(direction, light.areaNormal) >= 0.0", "false"},
          {"no light of lamps of two sides from behind", kBounce,
-          "!doubleSided && dot(direction, areaNormal) >= 0.0", "dot(direction, areaNormal) >= 0.0"},
-         {"the triangle beside", kBounce, "int((links.w + hit.triangle) * kTexelsPerLightTriangle)",
-          "int(links.w * kTexelsPerLightTriangle)"},
+          "!light.doubleSided && dot(direction, light.areaNormal) >= 0.0",
+          "dot(direction, light.areaNormal) >= 0.0"},
+         {"the triangle beside", kBounce, "int(links.w + hit.triangle)", "int(links.w)"},
          {"no surroundings", kBounce, "vec3 arriving = frame.ambient",
           "vec3 arriving = 0.0 * frame.ambient"},
          {"kappa not applied", kBounce, "frame.regularization);", "0.0 * frame.regularization);"},

@@ -68,7 +68,7 @@ PathVerdict threeFrames(const Case& c) {
     return sum;
 }
 
-/// Where a pair of references puts the surfaces of `seen` among those of `world`.
+/// Returns the surfaces of `seen` that a pair of references places among those of `world`.
 PathImages placedOf(const RenderTargets& targets) {
     PathImages images = pictureOf(targets);
     images.surface = targets.placed.surface.read<glm::uvec4>();

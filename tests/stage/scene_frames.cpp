@@ -11,25 +11,10 @@
 #include "renderer/scene/scene_builder.h"
 #include "renderer/scene/shapes.h"
 #include "tests/support/glossy_scene.h"
+#include "tests/support/scene_parts.h"
 #include "tests/support/source_dir.h"
 
 namespace afterglow::test {
-
-namespace {
-
-glm::vec4 turn(glm::vec3 axis, float angle) {
-    const glm::quat q = glm::angleAxis(angle, glm::normalize(axis));
-    return {q.x, q.y, q.z, q.w};
-}
-
-Mesh square(float half, float front) {
-    Mesh mesh;
-    addQuadFacing(mesh, {0.0f, front, 0.0f}, {-half, 0, -half}, {half, 0, -half}, {half, 0, half},
-                  {-half, 0, half});
-    return mesh;
-}
-
-} // namespace
 
 SceneFrames::SceneFrames(Scene scene, glm::ivec2 size, Settings initial, ShaderLibrary& shaders)
     : settings(initial), camera(cameraAt(scene, poseAt(scene, 0.0))), lights(scene.lights.size()),

@@ -13,7 +13,7 @@
 
 namespace afterglow::test {
 
-/// What a stage's test would hold against the shaders: its largest difference as a multiple of the
+/// Measures the largest difference that a stage's test finds in the shaders, as a multiple of the
 /// bound, or the number of pixels or strata that are wrong, whichever is more.
 using SceneMeasure = std::function<double(ShaderLibrary&)>;
 

@@ -3,6 +3,7 @@
 
 #include "renderer/scene/scene_builder.h"
 #include "renderer/scene/shapes.h"
+#include "tests/support/scene_parts.h"
 
 #include <algorithm>
 #include <string>
@@ -11,18 +12,6 @@
 namespace afterglow::test {
 
 namespace {
-
-glm::vec4 turn(glm::vec3 axis, float angle) {
-    const glm::quat q = glm::angleAxis(angle, glm::normalize(axis));
-    return {q.x, q.y, q.z, q.w};
-}
-
-Mesh square(float half, float front) {
-    Mesh mesh;
-    addQuadFacing(mesh, {0.0f, front, 0.0f}, {-half, 0, -half}, {half, 0, -half}, {half, 0, half},
-                  {-half, 0, half});
-    return mesh;
-}
 
 Mesh ball(float radius) {
     Mesh mesh;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands for Embree in a program that was built without it.
+// Replaces embree_scene.cpp in a program that is built without Embree.
 
 #include "app/bench/embree_scene.h"
 
