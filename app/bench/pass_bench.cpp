@@ -101,7 +101,7 @@ FrameInput BenchFrames::inputOf(const Scene& scene, std::uint32_t frame, std::ui
 
 Settings BenchFrames::settingsOf(Filter filter) const {
     Settings own = settings;
-    own.filter = filter;
+    setFilter(own, filter);
     return own;
 }
 

@@ -20,8 +20,7 @@ bool isPlainName(std::string_view name) {
 }
 
 Settings settingsOf(const Variant& variant, Signal signal) {
-    Settings settings;
-    settings.filter = variant.filter;
+    Settings settings = settingsOf(variant.filter);
     settings.lighting.signal = int(signal);
     for (const auto& [key, value] : variant.changes)
         setField(settings, key, value);

@@ -26,13 +26,13 @@ std::string formatOf(const Field& field) {
     return format;
 }
 
-std::string helpOf(const Field& field) {
+std::string helpOf(const Settings& settings, const Field& field) {
     const std::string range = field.choices.empty()
                                   ? fmt::format("\nRange {:.4g} to {}. Ctrl-click to type.",
                                                 field.min, valueText(field, field.max))
                                   : "";
     return fmt::format("{}\n{}{}\nDefault {} ({}).{}\nOn the command line: --set {}=", field.label,
-                       field.meaning, range, valueText(field, fieldValue(Settings{}, field)),
+                       field.meaning, range, valueText(field, defaultValue(settings, field)),
                        field.source, field.isFrameWide() ? "\nFor all panes." : "", field.key);
 }
 
@@ -85,7 +85,7 @@ void fieldRow(Panes& panes, const Field& field) {
     const float reset = 0.8f * ImGui::GetFrameHeight();
     const bool changed = !isDefault(settings, field);
     rowLabel(label);
-    tooltip(helpOf(field));
+    tooltip(helpOf(settings, field));
 
     const double value = fieldValue(settings, field);
     ImGui::SetNextItemWidth(-reset - 0.3f * em());
@@ -101,12 +101,12 @@ void fieldRow(Panes& panes, const Field& field) {
                    formatOf(field).c_str()))
             setField(panes, field, moved);
     }
-    tooltip(helpOf(field));
+    tooltip(helpOf(settings, field));
     if (changed) {
         ImGui::SameLine(0.0f, 0.3f * em());
         if (resetButton("reset"))
-            setField(panes, field, fieldValue(Settings{}, field));
-        tooltip("Back to " + valueText(field, fieldValue(Settings{}, field)));
+            setField(panes, field, defaultValue(settings, field));
+        tooltip("Back to " + valueText(field, defaultValue(settings, field)));
     }
     ImGui::PopID();
 }

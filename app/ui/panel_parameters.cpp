@@ -37,7 +37,7 @@ int changedIn(const Settings& settings, std::string_view group) {
 void resetGroup(Panes& panes, std::string_view group) {
     for (const Field& field : fields())
         if (field.group == group)
-            setField(panes, field, fieldValue(Settings{}, field));
+            setField(panes, field, defaultValue(settingsOf(panes, panes.active), field));
 }
 
 void copyRow(ViewState& state) {

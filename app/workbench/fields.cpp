@@ -32,8 +32,12 @@ void setFieldValue(FrameSettings& frame, FilterSettings& filter, const Field& fi
         field.in(frame, filter));
 }
 
+double defaultValue(const Settings& settings, const Field& field) {
+    return fieldValue(settingsOf(settings.filter), field);
+}
+
 bool isDefault(const Settings& settings, const Field& field) {
-    return fieldValue(settings, field) == fieldValue(Settings{}, field);
+    return fieldValue(settings, field) == defaultValue(settings, field);
 }
 
 std::string valueText(const Field& field, double value) {
@@ -44,7 +48,7 @@ std::string valueText(const Field& field, double value) {
 
 std::string settingsText(const Settings& settings) {
     std::string text = fmt::format("filter={}", nameOf(settings.filter));
-    for (const Field* field : differingFields(settings, Settings{})) {
+    for (const Field* field : differingFields(settings, settingsOf(settings.filter))) {
         if (field->group == "display")
             continue;
         const double value = fieldValue(settings, *field);

@@ -15,6 +15,7 @@ const Field& fieldByKey(std::string_view key);
 double fieldValue(const Settings& settings, const Field& field);
 /// Clamped to its range.
 void setFieldValue(FrameSettings& frame, FilterSettings& filter, const Field& field, double value);
+double defaultValue(const Settings& settings, const Field& field); ///< that of its filter
 bool isDefault(const Settings& settings, const Field& field);
 
 /// "0.2", "128", "power".

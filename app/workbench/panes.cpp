@@ -53,7 +53,7 @@ Panes startPanes(const Settings& settings) {
     std::size_t next = 1;
     for (const Filter filter : {Filter::Asvgf, Filter::Svgf, Filter::Fixed, Filter::Clamp})
         if (filter != settings.filter && next < panes.all.size())
-            panes.all[next++].settings.filter = filter;
+            setFilter(panes.all[next++].settings, filter);
     return panes;
 }
 
@@ -147,7 +147,7 @@ void setField(Panes& panes, const Field& field, double value) {
 }
 
 void setFilter(Panes& panes, std::size_t pane, Filter filter) {
-    panes.all.at(pane).settings.filter = filter;
+    setFilter(panes.all.at(pane).settings, filter);
     panes.all.at(pane).title.clear();
 }
 
@@ -171,7 +171,8 @@ std::string titleOf(const Panes& panes, std::size_t pane) {
                 if (std::ranges::find(differing, field) == differing.end())
                     differing.push_back(field);
     if (differing.empty())
-        differing = differingFields({{}, self.title.empty() ? FilterSettings{} : self.preset},
+        differing = differingFields(self.title.empty() ? settingsOf(self.settings.filter)
+                                                       : Settings{{}, self.preset},
                                     {{}, self.settings});
     std::string text = title;
     for (std::size_t i = 0; i < std::min(differing.size(), kMostTold); ++i) {
@@ -194,7 +195,7 @@ std::string parametersOf(const Pane& pane) {
     std::string text =
         fmt::format("\xce\xb1 {:.3g}", double(pane.settings.denoiser.temporal.alpha));
     const Settings settings{{}, pane.settings};
-    for (const Field* field : differingFields(settings, Settings{}))
+    for (const Field* field : differingFields(settings, settingsOf(settings.filter)))
         if (field->key != "alpha")
             text += ", " + std::string(field->key) + " " +
                     valueText(*field, fieldValue(settings, *field));

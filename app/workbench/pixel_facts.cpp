@@ -76,8 +76,8 @@ void PixelQuery::ask(Renderer& renderer, std::size_t state, glm::ivec2 pixel, st
         at_.gradient =
             gradient_.inspect(context, svgf::gradientInputs(in), plan.gradient, stratum, readback);
     if (plan.accumulate)
-        at_.temporal = temporal_.inspect(context, svgf::temporalInputs(in, own), plan.temporal,
-                                         pixel, readback);
+        at_.temporal = temporal_.inspect(context, svgf::temporalInputs(in, own),
+                                         svgf::temporalParams(in, plan), pixel, readback);
 }
 
 PixelFacts PixelQuery::answer(const PixelReadback& readback) const {

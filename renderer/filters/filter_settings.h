@@ -7,7 +7,7 @@
 namespace afterglow {
 
 /// By its place in the table of filters, filter_table.h.
-enum class Filter { None, Fixed, Svgf, Asvgf, Clamp, Percentile, Confidence };
+enum class Filter { None, Fixed, Svgf, Asvgf, Clamp, Percentile, Confidence, Counted };
 
 /// Of SVGF and its relatives. Ranges, units, meaning and source of every member: fields() in
 /// renderer/pipeline/settings.h.
@@ -23,7 +23,11 @@ struct DenoiserSettings {
                                  .lambdaUse = gpu::kLambdaBlends,
                                  .percentileSlope = 4.0f,
                                  .clampSigmas = 1.0f,
-                                 .clampRadius = 2};
+                                 .clampRadius = 2,
+                                 .reactivity = 400.0f,
+                                 .historyDuringChange = 8.0f,
+                                 .historyBetweenPixels = 32.0f,
+                                 .countReusedOnce = 1};
     gpu::PercentileParams percentiles{
         .lowPercentile = 0.1f, .highPercentile = 0.9f, .unused0 = 0.0f, .unused1 = 0.0f};
     gpu::GradientParams gradient{.deltaFloor = 1e-4f,
@@ -34,7 +38,12 @@ struct DenoiserSettings {
         .sigmaLuminance = 4.0f, .sigmaNormal = 128.0f, .sigmaDepth = 1.0f, .step = 1};
     gpu::EdgeStopping gradientEdges{
         .sigmaLuminance = 4.0f, .sigmaNormal = 128.0f, .sigmaDepth = 1.0f, .step = 1};
+    int gradientOver = gpu::kChangeOfLuminance;
+    int scaleHistory = 1;
+    float scaleDoubt = 10.0f;
     float minHistory = 4.0f;
+    float varianceExponent = 0.0f;
+    float shortHistoryBoost = 0.0f;
     int atrousIterations = 5;
     int feedbackIteration = 1; ///< whose result becomes the history; 0: the unfiltered blend
     int gradientIterations = 5;
@@ -50,5 +59,8 @@ struct FilterSettings {
     Filter filter = Filter::Asvgf;
     DenoiserSettings denoiser;
 };
+
+/// Returns the parameters with which a filter begins.
+DenoiserSettings defaultsOf(Filter filter);
 
 } // namespace afterglow

@@ -35,6 +35,11 @@ std::span<const FilterInfo> filterTable() {
                    "A-SVGF whose gradients cut the history length (after history confidence in "
                    "NRD)",
                    svgfFamily()},
+        FilterInfo{
+            Filter::Counted, "counted", "Counted",
+            "a history that is a mean of samples, from which each change of light takes some "
+            "away",
+            svgfFamily()},
     };
     return rows;
 }

@@ -23,8 +23,19 @@ constexpr std::array kImages{
     ImageDecl{"control", PixelFormat::RGBA32F},
     ImageDecl{"filtered 0", PixelFormat::RGBA32F},
     ImageDecl{"filtered 1", PixelFormat::RGBA32F},
+    ImageDecl{"light before", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light now", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light products", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light before 0", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light now 0", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light products 0", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light before 1", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light now 1", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"light products 1", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"change", PixelFormat::RGBA32F, ImageGrid::Strata},
+    ImageDecl{"changed", PixelFormat::R32UI, ImageGrid::One},
 };
-static_assert(kImages.size() == kFiltered1 + 1);
+static_assert(kImages.size() == kChanged + 1);
 
 using S = const FilterSettings&;
 
@@ -44,9 +55,22 @@ bool whereLambda(S s) {
     const SvgfPlan plan = makePlan(s);
     return plan.useLambda || plan.usePercentiles;
 }
-bool whereReconstructed(S s) {
+bool whereGradient(S s) {
     const SvgfPlan plan = makePlan(s);
-    return plan.useLambda && plan.gradientIterations > 0;
+    return plan.useLambda && !plan.useChange;
+}
+bool whereReconstructed(S s) {
+    return whereGradient(s) && makePlan(s).gradientIterations > 0;
+}
+bool whereChange(S s) {
+    return makePlan(s).useChange;
+}
+bool whereCounted(S s) {
+    return makePlan(s).countsSamples();
+}
+template <std::size_t measured, std::size_t reconstructed>
+std::size_t pairs(S s) {
+    return makePlan(s).gradientIterations > 0 ? reconstructed : measured;
 }
 
 template <std::size_t place>
@@ -86,9 +110,20 @@ constexpr std::array kAovs = std::to_array<FilterAov>({
     {{"gradient_max", "reconstructed larger luminance of the two frames (Delta) per stratum, radiance", "Y",
       G::Change, linear(0.0f, 1.0f, "radiance"), kPerSignal, kPerStratum}, whereReconstructed, at<kGradient0>, 1},
     {{"gradient_sample", "change of luminance at each stratum's sample, or its size, as measured, radiance", "Y",
-      G::Change, aroundZero(0.5f, "radiance"), kPerSignal, kPerStratum}, whereAdaptive, at<kGradientSamples>},
+      G::Change, aroundZero(0.5f, "radiance"), kPerSignal, kPerStratum}, whereGradient, at<kGradientSamples>},
     {{"gradient_sample_max", "larger luminance of the two frames at each stratum's sample, radiance", "Y",
-      G::Change, linear(0.0f, 1.0f, "radiance"), kPerSignal, kPerStratum}, whereAdaptive, at<kGradientSamples>, 1},
+      G::Change, linear(0.0f, 1.0f, "radiance"), kPerSignal, kPerStratum}, whereGradient, at<kGradientSamples>, 1},
+    {{"light_before", "reconstructed light of the gradient samples in the frame before, times the share of strata "
+      "that have one, per stratum, radiance", "RGB", G::Change, radiance(), kPerSignal, kPerStratum},
+     whereChange, pairs<kBefore, kBefore0>},
+    {{"light_now", "the same light in this frame, per stratum, radiance", "RGB", G::Change, radiance(), kPerSignal,
+      kPerStratum}, whereChange, pairs<kNow, kNow0>},
+    {{"change_left", "squared relative change that the history has after it was scaled (E), per stratum", "Y",
+      G::Change, linear(0.0f, 1.0f), kPerSignal, kPerStratum}, whereCounted, at<kChange>},
+    {{"change_variance", "relative variance of one sample (v), per stratum", "Y",
+      G::Change, logarithmic(0.01f, 10.0f, ""), kPerSignal, kPerStratum}, whereCounted, at<kChange>, 1},
+    {{"change_scale", "factor of the light, by which the history is scaled, per stratum", "Y",
+      G::Change, linear(0.0f, 2.0f), kPerSignal, kPerStratum}, whereCounted, at<kChange>, 2},
 });
 // clang-format on
 

@@ -10,10 +10,27 @@ svgf::Image svgf::blendOf(const SvgfPlan& plan) {
 }
 
 TemporalPass::Inputs svgf::temporalInputs(const FilterInput& in, FilterImages own) {
-    return {in.newest,          in.surfaces.visibility, in.previousVisibility,
-            in.surfaces.guides, in.previousGuides,      in.surfaces.slope,
-            in.motion,          own.previous(kColor),   own.previous(kMoments),
-            own[kLambda],       own[kLuminanceRange]};
+    return {in.newest,
+            in.surfaces.visibility,
+            in.previousVisibility,
+            in.surfaces.guides,
+            in.previousGuides,
+            in.surfaces.slope,
+            in.motion,
+            own.previous(kColor),
+            own.previous(kMoments),
+            own[kLambda],
+            own[kLuminanceRange],
+            own[kChange],
+            own[kChanged],
+            in.samples};
+}
+
+gpu::TemporalParams svgf::temporalParams(const FilterInput& in, const SvgfPlan& plan) {
+    gpu::TemporalParams params = plan.temporal;
+    if (in.samplesBeside)
+        params.countReusedOnce = 0; // no sample of the picture is a reused one
+    return params;
 }
 
 GradientPass::Inputs svgf::gradientInputs(const FilterInput& in) {
@@ -23,8 +40,9 @@ GradientPass::Inputs svgf::gradientInputs(const FilterInput& in) {
 
 SvgfFilter::SvgfFilter(ShaderLibrary& shaders)
     : gradient_(shaders), gradientSpline_(shaders, Kernel::B3Spline5x5),
-      gradientBox_(shaders, Kernel::Box3x3), lambda_(shaders), luminanceRange_(shaders),
-      temporal_(shaders), variance_(shaders), atrousSpline_(shaders, Kernel::B3Spline5x5),
+      gradientBox_(shaders, Kernel::Box3x3), lambda_(shaders), lightPairs_(shaders),
+      lightPairsAtrous_(shaders), change_(shaders), luminanceRange_(shaders), temporal_(shaders),
+      variance_(shaders), atrousSpline_(shaders, Kernel::B3Spline5x5),
       atrousBox_(shaders, Kernel::Box3x3) {
     // What is needed first in most runs: a program is otherwise compiled in the frame that meets
     // it.
@@ -50,7 +68,9 @@ const GpuTexture& SvgfFilter::run(FrameContext& frame, const FilterInput& in,
 const GpuTexture& SvgfFilter::run(FrameContext& frame, const FilterInput& in, const SvgfPlan& plan,
                                   FilterImages own) {
     const Run run{frame, in, plan, own};
-    if (plan.useLambda)
+    if (plan.useChange)
+        reconstructChange(run);
+    else if (plan.useLambda)
         reconstructGradient(run);
     if (plan.usePercentiles)
         luminanceRange_.run(frame, {in.newest, in.surfaces.guides}, {own[kLuminanceRange]},
@@ -79,10 +99,33 @@ void SvgfFilter::reconstructGradient(const Run& run) {
     lambda_.run(frame, {*newest}, {own[kLambda]}, plan.gradient);
 }
 
+void SvgfFilter::reconstructChange(const Run& run) {
+    const auto& [frame, in, plan, own] = run;
+    const auto pairsAt = [&own = own](svgf::Image first) -> LightPairs {
+        return {own[first], own[first + 1], own[first + 2]};
+    };
+    const GradientPass::Inputs samples = gradientInputs(in);
+    svgf::Image newest = kBefore;
+    lightPairs_.run(
+        frame,
+        {samples.raw, samples.previousRaw, samples.samples, samples.guides, samples.sampleRaw},
+        {pairsAt(newest), own[kChanged]});
+    gpu::EdgeStopping edges = plan.gradientEdges;
+    for (int k = 0; k < plan.gradientIterations; ++k) {
+        edges.step = plan.gradientStep(k);
+        // The last is kBefore0.
+        const svgf::Image out = (plan.gradientIterations - 1 - k) % 2 == 0 ? kBefore0 : kBefore1;
+        lightPairsAtrous_.run(frame, {pairsAt(newest), in.strataGuides, in.strataSlope},
+                              {pairsAt(out)}, plan.gradientKernel, edges);
+        newest = out;
+    }
+    change_.run(frame, {pairsAt(newest)}, {own[kLambda], own[kChange]}, plan.change);
+}
+
 void SvgfFilter::accumulate(const Run& run) {
     const auto& [frame, in, plan, own] = run;
     temporal_.run(frame, temporalInputs(in, own),
-                  {own[blendOf(plan)], own[kMoments], own[kControl]}, plan.temporal);
+                  {own[blendOf(plan)], own[kMoments], own[kControl]}, temporalParams(in, plan));
 }
 
 const GpuTexture& SvgfFilter::filter(const Run& run) {

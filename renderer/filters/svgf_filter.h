@@ -4,6 +4,7 @@
 #include "renderer/filters/filter.h"
 #include "renderer/filters/svgf_plan.h"
 #include "renderer/passes/atrous_pass.h"
+#include "renderer/passes/change_pass.h"
 #include "renderer/passes/gradient_pass.h"
 #include "renderer/passes/luminance_range_pass.h"
 #include "renderer/passes/temporal_pass.h"
@@ -11,7 +12,7 @@
 
 namespace afterglow {
 
-/// SVGF and its relatives: none, fixed, svgf, asvgf, clamp, percentile, confidence.
+/// SVGF and its relatives: none, fixed, svgf, asvgf, clamp, percentile, confidence, counted.
 const FilterFamily& svgfFamily();
 
 /// The images of the family, by their places.
@@ -27,13 +28,27 @@ enum Image : std::size_t {
     kAccumulated, ///< the blend, unless it is kColor
     kControl,     ///< lambda, alpha, history length, reason
     kFiltered0,
-    kFiltered1
+    kFiltered1,
+    // Pairs of light, before, now and products: as measured, and reconstructed in turns, the result
+    // in the second three.
+    kBefore,
+    kNow,
+    kProducts,
+    kBefore0,
+    kNow0,
+    kProducts0,
+    kBefore1,
+    kNow1,
+    kProducts1,
+    kChange,
+    kChanged
 };
 /// Returns the image that holds the temporal blend: the history itself where nothing is fed back
 /// from the spatial filter.
 Image blendOf(const SvgfPlan& plan);
 /// The inputs of the family's passes.
 TemporalPass::Inputs temporalInputs(const FilterInput& in, FilterImages own);
+gpu::TemporalParams temporalParams(const FilterInput& in, const SvgfPlan& plan);
 GradientPass::Inputs gradientInputs(const FilterInput& in);
 } // namespace svgf
 
@@ -56,6 +71,7 @@ private:
         FilterImages& own;
     };
     void reconstructGradient(const Run& run);
+    void reconstructChange(const Run& run);
     void accumulate(const Run& run);
     const GpuTexture& filter(const Run& run);
     AtrousPass& atrousOf(const SvgfPlan& plan);
@@ -64,6 +80,9 @@ private:
     GradientPass gradient_;
     GradientAtrousPass gradientSpline_, gradientBox_;
     LambdaPass lambda_;
+    LightPairsPass lightPairs_;
+    LightPairsAtrousPass lightPairsAtrous_;
+    ChangePass change_;
     LuminanceRangePass luminanceRange_;
     TemporalPass temporal_;
     VariancePass variance_;

@@ -11,6 +11,7 @@ struct SvgfPlan {
     bool accumulate = false;     ///< temporal accumulation; without it the raw signal is shown
     bool carrySamples = false;   ///< shade some of the last frame's samples again, with their seeds
     bool useLambda = false;      ///< lambda per pixel, from the gradient of those samples
+    bool useChange = false;      ///< that lambda from the change of light by channel
     bool usePercentiles = false; ///< lambda per pixel, from percentiles of the raw luminance
 
     gpu::TemporalParams temporal{};
@@ -21,6 +22,7 @@ struct SvgfPlan {
     int gradientIterations = 0;                  ///< of the reconstruction of the gradient
     Kernel gradientKernel = Kernel::B3Spline5x5; ///< of each of them
     bool gradientStridesLinear = false;          ///< steps of 1, 2, 3, ... instead of 1, 2, 4, ...
+    gpu::ChangeParams change{};                  ///< with useChange
 
     gpu::VarianceParams variance{};
     gpu::EdgeStopping edges{};           ///< of the spatial filter; the steps are 1, 2, 4, ...
@@ -28,6 +30,7 @@ struct SvgfPlan {
     Kernel kernel = Kernel::B3Spline5x5; ///< of each of them
     int feedbackIteration = 0; ///< whose result becomes the history; 0: the unfiltered blend
 
+    bool countsSamples() const { return temporal.lambdaUse == gpu::kLambdaCounts; }
     bool cutsHistory() const { return temporal.lambdaUse == gpu::kLambdaCuts; }
     bool clampsHistory() const { return temporal.clampRadius >= 0; }
     int gradientStep(int iteration) const {

@@ -11,7 +11,7 @@ namespace afterglow {
 
 /// Back-projects the history and blends the new sample into it with an alpha per pixel.
 /// Schied et al. 2017, section 4.1; Schied et al. 2018, section 4.4; and what three competing
-/// filters do with a history instead.
+/// filters do with a history instead; and the counted history.
 /// Reads FrameUniforms::historyValid. See shaders/denoise/temporal.comp and docs/pipeline.md.
 class TemporalPass {
 public:
@@ -27,6 +27,9 @@ public:
         const GpuTexture& previousMoments;
         const GpuTexture& lambda;         ///< per stratum; used with kLambdaFromGradient
         const GpuTexture& luminanceRange; ///< per tile; used with kLambdaFromRange
+        const GpuTexture& change;         ///< per stratum; used with kLambdaCounts and kLambdaLight
+        const GpuTexture& changed; ///< strata whose light has changed; used with kLambdaCounts
+        const GpuTexture& samples; ///< per stratum; used with kLambdaCounts
     };
     struct Outputs {
         GpuTexture& accumulated;

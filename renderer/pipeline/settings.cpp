@@ -18,10 +18,11 @@ namespace afterglow {
 namespace {
 
 constexpr std::array<std::string_view, 2> kKernelNames{"b3-5x5", "box-3x3"};
-constexpr std::array<std::string_view, 3> kLambdaFetchNames{"nearest", "bilinear", "max"};
+constexpr std::array<std::string_view, 4> kLambdaFetchNames{"nearest", "bilinear", "max", "light"};
 constexpr std::array<std::string_view, 3> kHistoryLawNames{"effective", "frames", "power"};
 constexpr std::array<std::string_view, 2> kLambdaUseNames{"blend", "confidence"};
 constexpr std::array<std::string_view, 2> kMagnitudeNames{"signed", "absolute"};
+constexpr std::array<std::string_view, 2> kChangeOfNames{"luminance", "channels"};
 constexpr std::array<std::string_view, 2> kStrideNames{"doubling", "linear"};
 constexpr std::array<std::string_view, 2> kPlacementNames{"merged", "extra"};
 constexpr std::array<std::string_view, 4> kToneMapperNames{"aces", "agx", "neutral", "none"};
@@ -51,7 +52,8 @@ const std::array kFields = std::to_array<Field>({
      "frames", "own choice", 1.0, 1024.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.maxHistory)},
     {"temporal", "historyLaw", "History law",
      "How the history length follows alpha: the effective sample count, frames whatever "
-     "lambda is (Q2VKPT), or frames cut by the tenth power of 1 - lambda (Q2RTX).",
+     "lambda is (Q2VKPT), or frames cut by the tenth power of 1 - lambda before alpha is taken "
+     "from them (Q2RTX).",
      "", "Q2RTX; chosen by measurement, docs/results.md", 0.0, 2.0, false, kHistoryLawNames,
      AFTERGLOW_FIELD(denoiser.temporal.historyLaw)},
     {"temporal", "depthTolerance", "Depth tolerance",
@@ -64,6 +66,15 @@ const std::array kFields = std::to_array<Field>({
     {"temporal", "minHistory", "Shortest history for variance",
      "Below this the variance is estimated in space.",
      "frames", kSvgf, 1.0, 16.0, false, {}, AFTERGLOW_FIELD(denoiser.minHistory)},
+    {"temporal", "varianceExponent", "Variance exponent",
+     "The variance that guides the spatial filter is that of one sample over the history length to "
+     "this power: 0 as published, 1 that of the mean of independent samples. Of filter counted, and "
+     "with the history law effective.",
+     "", kMeasured, 0.0, 2.0, false, {}, AFTERGLOW_FIELD(denoiser.varianceExponent)},
+    {"temporal", "shortHistoryBoost", "Short-history boost",
+     "The variance is larger by this over the squared history length: fewer specks in the first "
+     "frames after an event, a softer picture there.",
+     "", kMeasured, 0.0, 32.0, false, {}, AFTERGLOW_FIELD(denoiser.shortHistoryBoost)},
     {"temporal", "lambdaUse", "Lambda use",
      "What lambda does: it blends alpha towards 1, or its complement squared is a confidence "
      "that cuts the history length (NRD; always so in the filter confidence).",
@@ -87,6 +98,35 @@ const std::array kFields = std::to_array<Field>({
      "Filter percentile: lambda for each width of the range that a history is outside of it.",
      "", kMeasured, 0.05, 64.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.percentileSlope)},
 
+    {"counted", "reactivity", "Reactivity",
+     "Filter counted: how many pixels the spatial filter averages afterwards. More means less lag, "
+     "and more noise after a change.",
+     "pixels", kMeasured, 20.0, 2000.0, true, {}, AFTERGLOW_FIELD(denoiser.temporal.reactivity)},
+    {"counted", "historyDuringChange", "History during a change",
+     "Filter counted: while light changes anywhere, no history counts for more.",
+     "samples", kMeasured, 1.0, 1024.0, true, {},
+     AFTERGLOW_FIELD(denoiser.temporal.historyDuringChange)},
+    {"counted", "historyBetweenPixels", "History between pixels",
+     "Filter counted: a history that is interpolated counts for no more, since it is blurred again "
+     "and again.",
+     "samples", kMeasured, 1.0, 1024.0, true, {},
+     AFTERGLOW_FIELD(denoiser.temporal.historyBetweenPixels)},
+    {"counted", "countReusedOnce", "Count reused samples once",
+     "Filter counted: a gradient sample that is in the history already adds nothing to it.",
+     "", kMeasured, 0.0, 1.0, false, kSwitchNames,
+     AFTERGLOW_FIELD(denoiser.temporal.countReusedOnce)},
+    {"counted", "scaleHistory", "Scale the history",
+     "Filter counted: where one factor explains a change, a lamp that is dimmed, the history is "
+     "multiplied by it and kept.",
+     "", kMeasured, 0.0, 1.0, false, kSwitchNames, AFTERGLOW_FIELD(denoiser.scaleHistory)},
+    {"counted", "scaleDoubt", "Doubt of the factor",
+     "Filter counted: how much what that factor does not explain speaks against it.",
+     "", kMeasured, 0.1, 1000.0, true, {}, AFTERGLOW_FIELD(denoiser.scaleDoubt)},
+
+    {"gradient", "gradientOver", "Gradient over",
+     "Whether a change is one of luminance, or the largest of the channels': a color that changes "
+     "is seen. Of filters asvgf and counted.",
+     "", kAsvgf, 0.0, 1.0, false, kChangeOfNames, AFTERGLOW_FIELD(denoiser.gradientOver)},
     {"gradient", "gradientIterations", "Gradient iterations",
      "A-trous iterations of the reconstruction of the temporal gradient.",
      "", kAsvgf, 0.0, 7.0, false, {}, AFTERGLOW_FIELD(denoiser.gradientIterations)},
@@ -106,9 +146,9 @@ const std::array kFields = std::to_array<Field>({
      "always so in the filter confidence).",
      "", kAsvgf, 0.0, 1.0, false, kSwitchNames, AFTERGLOW_FIELD(denoiser.gradientLuminanceStop)},
     {"gradient", "lambdaFetch", "Lambda fetch",
-     "How lambda, known per 3x3 stratum, is fetched at a pixel: of its stratum, bilinear, or"
-     " the largest of the 3x3 strata around.",
-     "", "own choice; largest as in the authors' code", 0.0, 2.0, false, kLambdaFetchNames,
+     "How lambda, known per 3x3 stratum, is fetched at a pixel: of its stratum, bilinear, the"
+     " largest of the 3x3 strata around, or their mean weighted by their light.",
+     "", "own choice; largest as in the authors' code", 0.0, 3.0, false, kLambdaFetchNames,
      AFTERGLOW_FIELD(denoiser.temporal.lambdaFetch)},
     {"gradient", "gradientSigmaLuminance", "Sigma luminance (gradient)",
      "Edge stop of the reconstruction, in standard deviations of the stratum's luminance.",
@@ -257,6 +297,29 @@ std::span<const Field> fields() {
     return kFields;
 }
 
+Settings settingsOf(Filter filter) {
+    return {{}, {filter, defaultsOf(filter)}};
+}
+
+void setFilter(FilterSettings& settings, Filter filter) {
+    FrameSettings unused;
+    FilterSettings before{settings.filter, defaultsOf(settings.filter)};
+    FilterSettings after{filter, defaultsOf(filter)};
+    for (const Field& field : kFields) {
+        if (field.isFrameWide())
+            continue;
+        const auto follow = [&]<class Number>(Number* now) {
+            const auto of = [&](FilterSettings& other) {
+                return *std::get<Number*>(field.in(unused, other));
+            };
+            if (*now == of(before))
+                *now = of(after);
+        };
+        std::visit(follow, field.in(unused, settings));
+    }
+    settings.filter = filter;
+}
+
 void setField(Settings& settings, std::string_view key, std::string_view value) {
     const Field& field = fieldByKey(key);
     if (!field.choices.empty()) {
@@ -292,11 +355,14 @@ void applyJson(Settings& settings, const nlohmann::json& json) {
     if (!json.is_object())
         throw UsageError("settings are a JSON object, not " + std::string(json.type_name()));
     Settings result = settings;
+    if (const auto filter = json.find("filter"); filter != json.end()) {
+        if (!filter->is_string())
+            throw UsageError("setting 'filter' is a name, not " + jsonText(*filter));
+        setFilter(result, filterFromName(filter->get<std::string>()));
+    }
     for (const auto& [key, value] : json.items()) {
         if (key == "filter") {
-            if (!value.is_string())
-                throw UsageError("setting 'filter' is a name, not " + jsonText(value));
-            result.filter = filterFromName(value.get<std::string>());
+            continue; // it comes first, since the others change its defaults
         } else if (value.is_string()) {
             setField(result, key, value.get<std::string>());
         } else if (value.is_number()) {

@@ -78,6 +78,12 @@ struct Field {
 };
 std::span<const Field> fields();
 
+/// Returns a filter as it begins, in a frame as it begins.
+Settings settingsOf(Filter filter);
+/// Changes the filter. Settings of the old one that are at its defaults follow to those of the new
+/// one; what was changed stays.
+void setFilter(FilterSettings& settings, Filter filter);
+
 /// Sets one field by key from text ("alpha", "0.1"; "lambdaFetch", "bilinear").
 /// UsageError names an unknown key (and the nearest known), a bad value and the allowed range.
 void setField(Settings& settings, std::string_view key, std::string_view value);

@@ -20,6 +20,7 @@ glm::ivec2 cellsOf(ImageGrid grid, glm::ivec2 size) {
     case ImageGrid::Pixels: return size;
     case ImageGrid::Strata: return strataOf(size);
     case ImageGrid::Tiles: return tilesOf(size);
+    case ImageGrid::One: return glm::ivec2(1);
     }
     return size;
 }

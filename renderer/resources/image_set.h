@@ -10,7 +10,7 @@
 namespace afterglow {
 
 /// The part of the picture that one texel of an image covers.
-enum class ImageGrid { Pixels, Strata, Tiles };
+enum class ImageGrid { Pixels, Strata, Tiles, One };
 
 /// Returns the number of strata that cover an image: ceil(size / 3).
 glm::ivec2 strataOf(glm::ivec2 size);

@@ -5,9 +5,10 @@
 // Schied et al. 2017, section 4.1; Schied et al. 2018, section 4.4.
 // Departure: the history length is the effective number of samples, which falls with alpha; the
 // papers leave it as it is, and alpha then returns to its least value with a history of one sample.
+// With the history law power the history is cut before alpha is taken from it, as in Q2RTX.
 // Three competitors share this pass: a history clamped to its neighborhood (Karis 2014, Salvi
 // 2016), lambda from percentiles of one frame (merian), and lambda that cuts the history length
-// (NRD).
+// (NRD). So does the counted history, our own: lib/counted_history.glsl.
 // With INSPECT the outputs are one pixel's TemporalFindings; see lib/inspect.glsl.
 // With FOR_PLAN the choices of a plan are constants, and what it does not use is compiled away;
 // without it they are those of the parameters. The results are the same bits.
@@ -30,6 +31,8 @@ layout(std140, binding = kPassBlock) uniform Params {
 #define LAMBDA_USE params.lambdaUse
 #define HISTORY_LAW params.historyLaw
 #define CLAMP_RADIUS params.clampRadius
+#define READS_CHANGE
+#define COUNTS
 #endif
 
 Float4Texture(raw); // a: luminance
@@ -43,6 +46,13 @@ Float4Texture(previousColor);
 Float4Texture(previousMoments);
 FloatTexture(lambda);          // per stratum
 Float4Texture(luminanceRange); // per tile: low, high, foreground pixels
+#ifdef READS_CHANGE
+Float4Texture(change); // per stratum: what is left of lambda^2, variance, factor, weight
+#endif
+#ifdef COUNTS
+UintTexture(changed);  // one texel: strata whose light has changed
+Uint4Texture(samples); // per stratum; y: place in it + 1 of the gradient sample
+#endif
 
 #ifndef INSPECT
 writeonly uniform image2D accumulated; // a: luminance of the history before any clamp
@@ -55,6 +65,7 @@ struct History {
     vec2 moments;
     float samples; // effective number; 0: none
     int reason;
+    bool isBetween; // interpolated between pixels
 };
 
 void store(ivec2 p, vec4 newAccumulated, vec4 newMoments, vec4 newControl) {
@@ -86,7 +97,7 @@ int tapReason(int tap, ivec2 q, uint instance, float depth, float tolerance, vec
 }
 
 History fetchHistory(ivec2 p, vec3 normal) {
-    History none = History(vec3(0.0), vec2(0.0), 0.0, kHistoryNone);
+    History none = History(vec3(0.0), vec2(0.0), 0.0, kHistoryNone, false);
     vec4 moved = fetch(motion, p);
     if (frame.historyValid == 0u)
         return none;
@@ -130,11 +141,12 @@ History fetchHistory(ivec2 p, vec3 normal) {
     }
     NOTE(validWeight, weightSum);
     if (weightSum < kLeastWeight)
-        return History(vec3(0.0), vec2(0.0), 0.0, history.reason);
+        return History(vec3(0.0), vec2(0.0), 0.0, history.reason, false);
     history.color /= weightSum;
     history.moments /= weightSum;
     history.samples /= weightSum;
     history.reason = kHistoryKept;
+    history.isBetween = any(lessThan(abs(f - 0.5), vec2(0.5 - kBetweenPixels)));
     return history;
 }
 
@@ -192,6 +204,10 @@ float lambdaOf(ivec2 s) {
     return fetch(lambda, clamp(s, ivec2(0), frame.strata - 1)).x;
 }
 
+#ifdef READS_CHANGE
+#include "lib/counted_history.glsl"
+#endif
+
 float lambdaOfStrata(ivec2 p) {
     ivec2 s = p / int(kStratumSize);
     NOTE(lambdaStratum, s);
@@ -215,6 +231,10 @@ float lambdaOfStrata(ivec2 p) {
         return mix(mix(lambdaOf(corner), lambdaOf(corner + ivec2(1, 0)), f.x),
                    mix(lambdaOf(corner + ivec2(0, 1)), lambdaOf(corner + ivec2(1, 1)), f.x), f.y);
     }
+#ifdef READS_CHANGE
+    if (LAMBDA_FETCH == kLambdaLight)
+        return changeByLight(p).x;
+#endif
     return lambdaOf(s);
 }
 
@@ -226,14 +246,10 @@ float lambdaAt(ivec2 p, bool hasHistory, float historyLuminance) {
     return 0.0;
 }
 
-float nextSamples(float samples, float alpha, float l) {
-    if (samples == 0.0)
-        return 1.0;
-    float next = 1.0 / ((1.0 - alpha) * (1.0 - alpha) / samples + alpha * alpha);
-    if (HISTORY_LAW == kHistoryFrames)
-        next = samples + 1.0;
-    if (HISTORY_LAW == kHistoryPower)
-        next = samples * pow(1.0 - l, 10.0) + 1.0;
+float nextSamples(float samples, float alpha) {
+    float next = samples + 1.0;
+    if (HISTORY_LAW == kHistoryEffective)
+        next = 1.0 / ((1.0 - alpha) * (1.0 - alpha) / samples + alpha * alpha);
     return min(next, params.maxHistory);
 }
 
@@ -253,30 +269,50 @@ void main() {
     float historyLuminance = hasHistory ? luminance(history.color) : 0.0;
     history.color = clampToNeighborhood(history.color, p);
 
-    float fetchedLambda = lambdaAt(p, hasHistory, historyLuminance);
+    bool counts = LAMBDA_USE == kLambdaCounts;
+    float fetchedLambda = counts ? 0.0 : lambdaAt(p, hasHistory, historyLuminance);
     float l = fetchedLambda;
+    float newest = 1.0; // samples
+#ifdef COUNTS
+    if (counts) {
+        if (history.isBetween)
+            history.samples = min(history.samples, params.historyBetweenPixels);
+        float before = history.samples;
+        fetchedLambda = countChange(history, p);
+        newest = newSamples(p, before, history.samples);
+        l = 0.0;
+    }
+#endif
+    if (LAMBDA_USE == kLambdaBlends && HISTORY_LAW == kHistoryPower)
+        history.samples *= pow(1.0 - l, 10.0);
     if (LAMBDA_USE == kLambdaCuts) {
         float confidence = (1.0 - l) * (1.0 - l);
         // mix(confidence, 1, 1 / (N + 1)), in a form that is exactly 1 for a confidence of 1.
         history.samples *= confidence + (1.0 - confidence) / (history.samples + 1.0);
         l = 0.0;
     }
-    float leastWeight = 1.0 / (history.samples + 1.0);
+    float leastWeight = newest / (history.samples + newest);
     NOTE(usedColor, history.color);
     NOTE(usedSamples, history.samples);
     NOTE(leastWeight, leastWeight);
+    NOTE(newSamples, newest);
     float alpha = (1.0 - l) * max(params.alpha, leastWeight) + l;
     float alphaMoments = (1.0 - l) * max(params.alphaMoments, leastWeight) + l;
+    if (counts)
+        alpha = leastWeight;
     if (!hasHistory)
         alpha = alphaMoments = 1.0;
 
     vec3 color = (1.0 - alpha) * history.color + alpha * current.rgb;
     vec2 blended = (1.0 - alphaMoments) * history.moments + alphaMoments * currentMoments;
-    float samples = nextSamples(history.samples, alpha, l);
+    float length = counts ? min(history.samples + newest, params.maxHistory)
+                          : nextSamples(history.samples, alpha);
+    if (!hasHistory)
+        length = 1.0;
     // The background is computed as well, and stored by one instruction with the rest: on llvmpipe
     // a second path costs more.
     bool isSurface = guide.w != 0.0;
     store(p, isSurface ? vec4(color, historyLuminance) : vec4(0.0),
-          isSurface ? vec4(blended, samples, 0.0) : vec4(0.0),
-          isSurface ? vec4(fetchedLambda, alpha, samples, float(history.reason)) : vec4(0.0));
+          isSurface ? vec4(blended, length, 0.0) : vec4(0.0),
+          isSurface ? vec4(fetchedLambda, alpha, length, float(history.reason)) : vec4(0.0));
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // Variance of the luminance from its moments: over time, or over 7x7 pixels where the history is
-// too short to tell. Schied et al. 2017, section 4.2.
+// too short to tell. Schied et al. 2017, section 4.2. That of one sample, as published, or of the
+// mean of the history's samples.
 
 #include "lib/edge_stopping.glsl"
 #include "lib/fetch.glsl"
@@ -53,7 +54,11 @@ void main() {
     }
     vec2 mean = radius < 0 ? own.xy : sum / weightSum;
     float variance = max(0.0, mean.y - mean.x * mean.x);
-    if (radius >= 0)
-        variance *= params.minHistory / max(history, 1.0);
+    float samples = max(history, 1.0);
+    if (params.varianceExponent != 0.0)
+        variance *= pow(samples, -params.varianceExponent);
+    else if (radius >= 0)
+        variance *= params.minHistory / samples;
+    variance *= 1.0 + params.shortHistoryBoost / (samples * samples);
     imageStore(filtered, p, vec4(fetch(accumulated, p).rgb, variance));
 }

@@ -17,12 +17,13 @@ struct EdgeStopping {
 // How lambda, known per stratum, is fetched at a pixel.
 const int kLambdaNearest = 0;
 const int kLambdaBilinear = 1;
-const int kLambdaMax = 2; // the largest of the 3x3 strata around
+const int kLambdaMax = 2;   // the largest of the 3x3 strata around
+const int kLambdaLight = 3; // the mean of the 3x3 strata around, weighted by their light
 
 // How the history length follows alpha.
 const int kHistoryEffective = 0; // 1/N' = (1 - a)^2 / N + a^2: the effective sample count, exact
 const int kHistoryFrames = 1;    // N' = N + 1: lambda is ignored, as in Q2VKPT
-const int kHistoryPower = 2;     // N' = N (1 - lambda)^10 + 1, as in Q2RTX
+const int kHistoryPower = 2;     // N (1 - lambda)^10 before the blend, N' = N + 1; as in Q2RTX
 
 // Where the lambda of a pixel comes from.
 const int kLambdaFromNothing = 0;  // 0 everywhere
@@ -32,6 +33,7 @@ const int kLambdaFromRange = 2;    // how far the history is outside the raw lum
 // What lambda does.
 const int kLambdaBlends = 0; // alpha' = (1 - lambda) alpha + lambda; Schied et al. 2018
 const int kLambdaCuts = 1;   // the history length is cut, and alpha follows from it; as in NRD
+const int kLambdaCounts = 2; // a change takes samples from the history; filter `counted`
 
 struct TemporalParams {
     float alpha;           // weight of the newest frame where nothing changed
@@ -46,6 +48,11 @@ struct TemporalParams {
     float percentileSlope; // of lambda over the distance from the range, in widths of the range
     float clampSigmas;     // standard deviations of the raw signal that a history may be off
     int clampRadius;       // pixels around, in which they are measured; negative: no clamp
+    // With kLambdaCounts:
+    float reactivity;           // pixels that the spatial filter averages afterwards
+    float historyDuringChange;  // samples; the most that a history counts for then
+    float historyBetweenPixels; // samples; likewise, where it is interpolated
+    int countReusedOnce;        // 1: a reused sample that is in the history adds nothing
 };
 
 struct PercentileParams {
@@ -69,16 +76,32 @@ struct GradientParams {
     float unused0;
 };
 
+// What a relative change of light is taken of.
+const int kChangeOfLuminance = 0;
+const int kChangeOfChannels = 1; // the largest of the channels' changes
+
+struct ChangeParams {
+    float deltaFloor;  // as in GradientParams
+    float forceLambda; // as in GradientParams
+    int over;
+    int scaleHistory; // 1: a history is scaled where one factor explains the change
+    float scaleDoubt; // kappa: how much what the factor does not explain speaks against it
+    float unused0, unused1, unused2;
+};
+
 struct VarianceParams {
     float sigmaNormal; // of the spatial estimate
     float sigmaDepth;
-    float minHistory; // frames; below it the variance is estimated in space
-    float unused0;
+    float minHistory;        // frames; below it the variance is estimated in space
+    float varianceExponent;  // p: the variance is that of one sample times N^-p
+    float shortHistoryBoost; // b: times 1 + b / N^2
+    float unused0, unused1, unused2;
 };
 
 // Constants of the search for a history. The rest of it can be set.
 const float kLeastWeight = 0.01;   // of the valid taps together
 const float kDepthEpsilon = 0.005; // of the depth, added to the tolerance
+const float kBetweenPixels = 1e-3; // least distance from a pixel of what is between pixels
 
 // Why a pixel has no history, in the fourth channel of the control image.
 const int kHistoryKept = 0;

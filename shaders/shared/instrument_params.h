@@ -58,13 +58,14 @@ struct TemporalFindings {
     ivec2 lambdaStratum; // the own one, or where lambda is the largest
     vec2 range;          // low and high percentile of the raw luminance around
     float outside;       // how far the history is outside that range
-    float unused0;
-    vec3 clampLow; // bounds of the color
+    float newSamples;    // how much of a new sample the newest one is
+    vec3 clampLow;       // bounds of the color
     float unused1;
     vec3 clampHigh;
     float unused2;
     vec3 usedColor;    // of the history, as it is blended
     float usedSamples; // N, as it is blended
+    vec4 change;       // of a counted history: E, v, factor, strata that have changed
     vec4 accumulated;  // the results, as in the images of that name
     vec4 moments;
     vec4 control;

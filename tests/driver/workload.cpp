@@ -168,7 +168,7 @@ void inspectFrame(Desk& desk, ShaderLibrary& shaders) {
         for (const glm::ivec2 pixel : {glm::ivec2(0), glm::ivec2(30, 20), kSize - 1}) {
             PixelReadback readback;
             const auto found = temporal.inspect(context, svgf::temporalInputs(in, own),
-                                                plan.temporal, pixel, readback);
+                                                svgf::temporalParams(in, plan), pixel, readback);
             const auto change = gradient.inspect(context, svgf::gradientInputs(in), plan.gradient,
                                                  pixel / 3, readback);
             readback.finish();

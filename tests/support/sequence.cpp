@@ -57,8 +57,7 @@ Image<glm::vec4> Sequence::reference(int samples) {
 }
 
 Settings settingsOf(Filter filter, Signal signal) {
-    Settings settings;
-    settings.filter = filter;
+    Settings settings = afterglow::settingsOf(filter);
     settings.lighting.signal = int(signal);
     return settings;
 }
