@@ -106,7 +106,7 @@ std::string presetText(const Preset& preset) {
     using Json = nlohmann::ordered_json;
     const Settings settings = settingsOf(preset.variant, Signal::Both);
     Json changes = Json::object();
-    for (const SettingDifference& change : differencesOf(settingsOf(settings.filter), settings)) {
+    for (const SettingDifference& change : differencesOf(defaultSettings(settings.filter), settings)) {
         const Field& field = *fieldNamed(change.key);
         if (field.choices.empty())
             changes[change.key] = parseJson(change.valueB);
@@ -127,7 +127,7 @@ std::string presetText(const Preset& preset) {
 Preset presetOf(std::string_view name, const Settings& settings) {
     Preset preset{.name = std::string(name)};
     preset.variant = {.name = preset.name, .filter = settings.filter};
-    for (SettingDifference& change : differencesOf(settingsOf(settings.filter), settings))
+    for (SettingDifference& change : differencesOf(defaultSettings(settings.filter), settings))
         preset.variant.changes.emplace_back(std::move(change.key), std::move(change.valueB));
     return preset;
 }

@@ -20,7 +20,7 @@ bool isPlainName(std::string_view name) {
 }
 
 Settings settingsOf(const Variant& variant, Signal signal) {
-    Settings settings = settingsOf(variant.filter);
+    Settings settings = defaultSettings(variant.filter);
     settings.lighting.signal = int(signal);
     for (const auto& [key, value] : variant.changes)
         setField(settings, key, value);

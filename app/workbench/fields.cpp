@@ -33,7 +33,7 @@ void setFieldValue(FrameSettings& frame, FilterSettings& filter, const Field& fi
 }
 
 double defaultValue(const Settings& settings, const Field& field) {
-    return fieldValue(settingsOf(settings.filter), field);
+    return fieldValue(defaultSettings(settings.filter), field);
 }
 
 bool isDefault(const Settings& settings, const Field& field) {
@@ -48,7 +48,7 @@ std::string valueText(const Field& field, double value) {
 
 std::string settingsText(const Settings& settings) {
     std::string text = fmt::format("filter={}", nameOf(settings.filter));
-    for (const Field* field : differingFields(settings, settingsOf(settings.filter))) {
+    for (const Field* field : differingFields(settings, defaultSettings(settings.filter))) {
         if (field->group == "display")
             continue;
         const double value = fieldValue(settings, *field);

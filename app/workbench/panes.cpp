@@ -171,7 +171,7 @@ std::string titleOf(const Panes& panes, std::size_t pane) {
                 if (std::ranges::find(differing, field) == differing.end())
                     differing.push_back(field);
     if (differing.empty())
-        differing = differingFields(self.title.empty() ? settingsOf(self.settings.filter)
+        differing = differingFields(self.title.empty() ? defaultSettings(self.settings.filter)
                                                        : Settings{{}, self.preset},
                                     {{}, self.settings});
     std::string text = title;
@@ -195,7 +195,7 @@ std::string parametersOf(const Pane& pane) {
     std::string text =
         fmt::format("\xce\xb1 {:.3g}", double(pane.settings.denoiser.temporal.alpha));
     const Settings settings{{}, pane.settings};
-    for (const Field* field : differingFields(settings, settingsOf(settings.filter)))
+    for (const Field* field : differingFields(settings, defaultSettings(settings.filter)))
         if (field->key != "alpha")
             text += ", " + std::string(field->key) + " " +
                     valueText(*field, fieldValue(settings, *field));

@@ -297,7 +297,7 @@ std::span<const Field> fields() {
     return kFields;
 }
 
-Settings settingsOf(Filter filter) {
+Settings defaultSettings(Filter filter) {
     return {{}, {filter, defaultsOf(filter)}};
 }
 

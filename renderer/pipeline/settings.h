@@ -79,7 +79,7 @@ struct Field {
 std::span<const Field> fields();
 
 /// Returns a filter as it begins, in a frame as it begins.
-Settings settingsOf(Filter filter);
+Settings defaultSettings(Filter filter);
 /// Changes the filter. Settings of the old one that are at its defaults follow to those of the new
 /// one; what was changed stays.
 void setFilter(FilterSettings& settings, Filter filter);

@@ -57,7 +57,7 @@ Image<glm::vec4> Sequence::reference(int samples) {
 }
 
 Settings settingsOf(Filter filter, Signal signal) {
-    Settings settings = afterglow::settingsOf(filter);
+    Settings settings = defaultSettings(filter);
     settings.lighting.signal = int(signal);
     return settings;
 }

@@ -23,14 +23,14 @@ bool sameBits(const Block& a, const Block& b) {
 
 bool isSame(const SvgfPlan& a, const SvgfPlan& b) {
     const auto flags = [](const SvgfPlan& p) {
-        return std::tuple(p.accumulate, p.carrySamples, p.useLambda, p.usePercentiles,
+        return std::tuple(p.accumulate, p.carrySamples, p.useLambda, p.useChange, p.usePercentiles,
                           p.gradientIterations, p.gradientKernel, p.gradientStridesLinear,
                           p.atrousIterations, p.kernel, p.feedbackIteration);
     };
     return flags(a) == flags(b) && sameBits(a.temporal, b.temporal) &&
            sameBits(a.percentiles, b.percentiles) && sameBits(a.gradient, b.gradient) &&
            sameBits(a.gradientEdges, b.gradientEdges) && sameBits(a.variance, b.variance) &&
-           sameBits(a.edges, b.edges);
+           sameBits(a.edges, b.edges) && sameBits(a.change, b.change);
 }
 
 } // namespace
@@ -152,6 +152,58 @@ TEST_CASE("filters differ in the rows of one plan") {
     confidence.gradientEdges.sigmaLuminance = 0.0f;
     confidence.gradientKernel = Kernel::B3Spline5x5;
     CHECK(isSame(makePlan({Filter::Confidence, {}}), confidence));
+
+    SvgfPlan counted = asvgf;
+    counted.useChange = true;
+    counted.change.over = gpu::kChangeOfChannels;
+    counted.temporal.lambdaUse = gpu::kLambdaCounts;
+    counted.temporal.lambdaFetch = gpu::kLambdaLight;
+    counted.temporal.historyLaw = gpu::kHistoryFrames;
+    counted.variance.varianceExponent = 1.25f;
+    counted.atrousIterations = 3;
+    counted.feedbackIteration = 0;
+    CHECK(isSame(makePlan(defaultSettings(Filter::Counted)), counted));
+}
+
+TEST_CASE("a variance of the mean needs a count of samples, a mean by light a change of light") {
+    DenoiserSettings settings;
+    settings.varianceExponent = 1.0f;
+    settings.temporal.lambdaFetch = gpu::kLambdaLight;
+    CHECK(makePlan({Filter::Asvgf, settings}).variance.varianceExponent == 0.0f);
+    CHECK(makePlan({Filter::Counted, settings}).variance.varianceExponent == 1.0f);
+    CHECK(makePlan({Filter::Asvgf, settings}).useChange);
+    CHECK(makePlan({Filter::Confidence, settings}).temporal.lambdaFetch == gpu::kLambdaMax);
+    settings.temporal.historyLaw = gpu::kHistoryEffective;
+    CHECK(makePlan({Filter::Asvgf, settings}).variance.varianceExponent == 1.0f);
+    settings.temporal.lambdaFetch = gpu::kLambdaMax;
+    CHECK_FALSE(makePlan({Filter::Asvgf, settings}).useChange);
+    settings.gradientOver = gpu::kChangeOfChannels;
+    CHECK(makePlan({Filter::Asvgf, settings}).useChange);
+    CHECK_FALSE(makePlan({Filter::Svgf, settings}).useChange);
+}
+
+TEST_CASE("what is at a filter's default follows to the next filter's, and what was set stays") {
+    Settings settings = defaultSettings(Filter::Svgf);
+    settings.denoiser.temporal.alpha = 0.1f;
+    settings.denoiser.feedbackIteration = 2;
+    setFilter(settings, Filter::Counted);
+    CHECK(settings.filter == Filter::Counted);
+    CHECK(settings.denoiser.atrousIterations == 3);
+    CHECK(settings.denoiser.feedbackIteration == 2);
+    CHECK(settings.denoiser.temporal.alpha == 0.1f);
+    setFilter(settings, Filter::Asvgf);
+    CHECK(settings.denoiser.atrousIterations == 5);
+    CHECK(settings.denoiser.feedbackIteration == 2);
+    setFilter(settings, Filter::Svgf);
+    setField(settings, "alpha", "0.2");
+    setField(settings, "feedbackIteration", "1");
+    CHECK(toJson(settings) == toJson(defaultSettings(Filter::Svgf)));
+
+    Settings read = defaultSettings(Filter::Asvgf);
+    applyJson(read, {{"filter", "counted"}, {"alpha", 0.5}});
+    Settings expected = defaultSettings(Filter::Counted);
+    expected.denoiser.temporal.alpha = 0.5f;
+    CHECK(toJson(read) == toJson(expected));
 }
 
 TEST_CASE("what cannot cut a history blends") {
