@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Makes docs/results.md and its pictures: runs the suite, the competitors, the options and a sweep.
-# Usage: docs/make_results.sh [PROGRAM [FOLDER]]    (half an hour on two cores without a GPU; what is
+# Usage: docs/make_results.sh [PROGRAM [FOLDER]]    (an hour and a half on two cores without a GPU; what is
 # in FOLDER already is not run again)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -13,12 +13,18 @@ started=$SECONDS
 run experiment all --out "$folder/suite"
 suite=$((SECONDS - started))
 run experiment light-off light-on light-dim fill-light light-color sparse-light light-move object-move \
-    --filter svgf,asvgf,clamp,percentile,confidence --out "$folder/competitors"
+    --filter svgf,asvgf,clamp,percentile,confidence,counted --out "$folder/competitors"
 run experiment fill-light light-dim light-on \
-    --filter asvgf,asvgf:lambdaFetch=nearest,asvgf:lambdaFetch=bilinear,asvgf:gradientKernel=b3-5x5,asvgf:gradientIterations=3,asvgf:historyLaw=frames,asvgf:historyLaw=effective,asvgf:alphaMoments=0.1,asvgf:alphaMoments=0.6,asvgf:feedbackIteration=0,asvgf:atrousIterations=3 \
+    --filter asvgf,asvgf:feedbackIteration=1,asvgf:gradientOver=channels,asvgf:gradientOver=channels:lambdaFetch=light,asvgf:historyLaw=effective:varianceExponent=0.5,asvgf:lambdaFetch=nearest,asvgf:lambdaFetch=bilinear,asvgf:gradientKernel=b3-5x5,asvgf:gradientIterations=3,asvgf:historyLaw=frames,asvgf:historyLaw=effective,asvgf:alphaMoments=0.1,asvgf:alphaMoments=0.6,asvgf:atrousIterations=3 \
     --out "$folder/options"
+run experiment static fill-light light-dim light-color \
+    --filter counted,counted:gradientOver=luminance,counted:countReusedOnce=off,counted:scaleHistory=off,counted:historyDuringChange=128,counted:historyBetweenPixels=128,counted:varianceExponent=0,counted:varianceExponent=1,counted:atrousIterations=5,counted:feedbackIteration=1,counted:maxHistory=32,counted:shortHistoryBoost=3,counted:reactivity=100,counted:lambdaFetch=max:reactivity=200 \
+    --out "$folder/counted"
+for signal in path split bounce; do
+    run experiment bounce-off gloss-off gloss-move fill-light --signal $signal --filter asvgf,counted --out "$folder/paths/$signal"
+done
 for signal in both separate; do
-    run experiment light-off light-dim fill-light sparse-light --signal $signal --filter svgf,asvgf --out "$folder/signals/$signal"
+    run experiment light-off light-dim fill-light sparse-light --signal $signal --filter svgf,asvgf,counted --out "$folder/signals/$signal"
 done
 run sweep fill-light --over alpha=0.05,0.1,0.2,0.4,0.8 --filter fixed,svgf,asvgf,percentile --out "$folder/sweep"
 

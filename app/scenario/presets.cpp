@@ -106,7 +106,8 @@ std::string presetText(const Preset& preset) {
     using Json = nlohmann::ordered_json;
     const Settings settings = settingsOf(preset.variant, Signal::Both);
     Json changes = Json::object();
-    for (const SettingDifference& change : differencesOf(defaultSettings(settings.filter), settings)) {
+    for (const SettingDifference& change :
+         differencesOf(defaultSettings(settings.filter), settings)) {
         const Field& field = *fieldNamed(change.key);
         if (field.choices.empty())
             changes[change.key] = parseJson(change.valueB);

@@ -115,14 +115,26 @@ public:
         if (!f_.plan.useLambda)
             return g;
         const glm::vec4 measured = f_.gradient->gradient;
-        g.addOf("gradient_sample", "delta, measured", measured.x);
-        g.addOf("gradient_sample_max", "Delta, measured", measured.y);
+        if (!f_.plan.useChange) {
+            g.addOf("gradient_sample", "delta, measured", measured.x);
+            g.addOf("gradient_sample_max", "Delta, measured", measured.y);
+        }
         g.add("luminance of the stratum", measured.z,
               "mean of the raw signal over its pixels, radiance");
         g.add("variance of the stratum", measured.w,
               "of the raw luminance over its pixels, radiance squared");
-        g.addImage("gradient", "delta, reconstructed");
-        g.addImage("gradient_max", "Delta, reconstructed");
+        if (f_.plan.useChange) {
+            g.addImage("light_before", "light before, reconstructed");
+            g.addImage("light_now", "light now, reconstructed");
+        } else {
+            g.addImage("gradient", "delta, reconstructed");
+            g.addImage("gradient_max", "Delta, reconstructed");
+        }
+        if (f_.plan.countsSamples()) {
+            g.addImage("change_scale", "factor of the light");
+            g.addImage("change_left", "change that is left");
+            g.addImage("change_variance", "variance of a sample");
+        }
         g.addImage("lambda_strata", "lambda of the stratum");
         return g;
     }
@@ -160,9 +172,12 @@ public:
                   "low and high percentile of the raw luminance around, radiance");
         if (f_.plan.useLambda || f_.plan.usePercentiles)
             g.addOf("lambda", "lambda", found.control.x);
-        if (kept && f_.plan.cutsHistory())
+        if (kept && (f_.plan.cutsHistory() || f_.plan.cutsByPower() || f_.plan.countsSamples()))
             g.add("length cut", found.usedSamples, "N that lambda leaves of the history, frames");
-        if (kept)
+        if (kept && f_.plan.countsSamples())
+            g.add("new samples", found.newSamples,
+                  "how much of a sample the newest one adds to the history");
+        else if (kept)
             g.add("1 / (N + 1)", found.leastWeight, "what the newest frame weighs in a mean");
         g.addOf("alpha", "alpha", found.control.y);
         g.addOf("history", "length", found.moments.z);

@@ -94,6 +94,8 @@ private:
         const std::string lambda = d(f_.image("lambda_strata"));
         if (params.forceLambda >= 0.0f)
             return add("The lambda of this stratum is set to {} by hand, as everywhere.", lambda);
+        if (f_.plan.useChange)
+            return addLightChange(lambda);
         const bool filtered = f_.plan.gradientIterations > 0;
         const double delta = f_.image(filtered ? "gradient" : "gradient_sample");
         const double larger = f_.image(filtered ? "gradient_max" : "gradient_sample_max");
@@ -105,6 +107,39 @@ private:
         else
             add("The lambda of this stratum is |delta| / Delta = {} / {} = {}, both {}.",
                 d(std::abs(delta)), d(larger), lambda, how);
+    }
+
+    void addLightChange(const std::string& lambda) {
+        add("The lambda of this stratum is {}: the {} between the light of the samples around in "
+            "the "
+            "two frames.",
+            lambda,
+            f_.plan.change.over == gpu::kChangeOfChannels ? "largest relative change of a channel"
+                                                          : "relative change of luminance");
+        if (!f_.plan.countsSamples())
+            return;
+        const double scale = f_.image("change_scale");
+        if (scale != 1.0)
+            add("One factor, {}, explains some of it; of its square {} is left.", d(scale),
+                d(f_.image("change_left")));
+    }
+
+    void addCount(const gpu::TemporalFindings& found) {
+        addLambda(found);
+        const int strata = int(found.change.w);
+        if (strata == 0)
+            add("No light has changed anywhere: the history counts for all of its samples.");
+        else if (found.control.x > 0.0f && found.change.z != 1.0f)
+            add("The history was multiplied by {}, as the light was.", d(found.change.z));
+        if (found.usedSamples != found.fetchedSamples)
+            add("It counts for {}, no longer for {}.", counted(found.usedSamples, "sample"),
+                d(found.fetchedSamples));
+        if (found.newSamples < 1.0f)
+            add("The newest sample is a reused one, which the history holds already: it counts for "
+                "{}.",
+                counted(found.newSamples, "sample"));
+        add("alpha = n / (N + n) = {} / ({} + {}) = {}.", d(found.newSamples), d(found.usedSamples),
+            d(found.newSamples), d(found.control.y));
     }
 
     void addHistory(const gpu::TemporalFindings& found) {
@@ -148,6 +183,9 @@ private:
                 lambda > 0.0f ? ": that of " + placeText(found.lambdaStratum) : "");
         if (f_.plan.useLambda && fetch == gpu::kLambdaBilinear)
             add("lambda here is {}, interpolated between the strata around.", d(lambda));
+        if (f_.plan.useLambda && fetch == gpu::kLambdaLight)
+            add("lambda here is {}, the mean of the 3x3 strata around, weighted by their light.",
+                d(lambda));
         if (!f_.plan.usePercentiles)
             return;
         const std::string luminance = d(found.accumulated.a);
@@ -163,8 +201,10 @@ private:
     }
 
     void addAlpha(const gpu::TemporalFindings& found) {
+        if (f_.plan.countsSamples())
+            return addCount(found);
         addLambda(found);
-        if (f_.plan.cutsHistory() && found.control.x > 0.0f)
+        if ((f_.plan.cutsHistory() || f_.plan.cutsByPower()) && found.control.x > 0.0f)
             add("lambda cuts the history from {} to {}.", d(found.fetchedSamples),
                 counted(found.usedSamples, "frame"));
         const std::string blend =

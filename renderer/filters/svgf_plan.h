@@ -32,6 +32,11 @@ struct SvgfPlan {
 
     bool countsSamples() const { return temporal.lambdaUse == gpu::kLambdaCounts; }
     bool cutsHistory() const { return temporal.lambdaUse == gpu::kLambdaCuts; }
+    /// Returns whether lambda makes the history shorter before it is blended, and blends as well.
+    bool cutsByPower() const {
+        return temporal.lambdaUse == gpu::kLambdaBlends &&
+               temporal.historyLaw == gpu::kHistoryPower && (useLambda || usePercentiles);
+    }
     bool clampsHistory() const { return temporal.clampRadius >= 0; }
     int gradientStep(int iteration) const {
         return gradientStridesLinear ? iteration + 1 : 1 << iteration;

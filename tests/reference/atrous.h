@@ -8,12 +8,12 @@
 namespace afterglow::reference {
 
 /// The sums of one a-trous iteration over any grid: rgb are averaged by the weights, alpha (a
-/// variance) by their squares. `luminanceOf` maps a texel to what equation 5 compares;
+/// variance) by their squares. `luminanceAt` maps a cell to what equation 5 compares;
 /// `pixelsPerCell` is the distance between neighboring cells in pixels.
-template <class LuminanceOf>
+template <class LuminanceAt>
 Image<glm::dvec4> atrousIteration(const Image<glm::vec4>& image, const Image<glm::vec4>& guides,
                                   const Image<glm::vec2>& slope, Kernel kernel,
-                                  const gpu::EdgeStopping& params, LuminanceOf luminanceOf,
+                                  const gpu::EdgeStopping& params, LuminanceAt luminanceAt,
                                   int pixelsPerCell) {
     Image<glm::dvec4> result(image.size());
     for (int py = 0; py < image.size().y; ++py)
@@ -36,7 +36,7 @@ Image<glm::dvec4> atrousIteration(const Image<glm::vec4>& image, const Image<glm
                     const double stops =
                         depthWeight(guides(p), guides(q), slope(p), offset, params.sigmaDepth) *
                         normalWeight(guides(p), guides(q), params.sigmaNormal) *
-                        luminanceWeight(luminanceOf(image(p)), luminanceOf(image(q)), variance,
+                        luminanceWeight(luminanceAt(p), luminanceAt(q), variance,
                                         params.sigmaLuminance);
                     const double w = share(kernel, k) * (q == p ? 1.0 : stops);
                     sum += w * glm::dvec3(image(q));
@@ -52,8 +52,8 @@ Image<glm::dvec4> atrousIteration(const Image<glm::vec4>& image, const Image<glm
 inline Image<glm::dvec4> atrous(const Image<glm::vec4>& signal, const Image<glm::vec4>& guides,
                                 const Image<glm::vec2>& slope, Kernel kernel,
                                 const gpu::EdgeStopping& params) {
-    const auto luminanceOf = [](const glm::vec4& c) { return luminance(glm::dvec3(c)); };
-    return atrousIteration(signal, guides, slope, kernel, params, luminanceOf, 1);
+    const auto luminanceAt = [&](glm::ivec2 p) { return luminance(glm::dvec3(signal(p))); };
+    return atrousIteration(signal, guides, slope, kernel, params, luminanceAt, 1);
 }
 
 } // namespace afterglow::reference

@@ -101,7 +101,7 @@ inline Image<glm::dvec4> gradientAtrous(const Image<glm::vec4>& gradient,
                                         const Image<glm::vec2>& strataSlope, Kernel kernel,
                                         const gpu::EdgeStopping& params) {
     const bool stops = params.sigmaLuminance > 0.0f;
-    const auto mean = [&](const glm::vec4& g) { return stops ? double(g.z) : 0.0; };
+    const auto mean = [&](glm::ivec2 s) { return stops ? double(gradient(s).z) : 0.0; };
     return atrousIteration(gradient, strataGuides, strataSlope, kernel, params, mean,
                            int(gpu::kStratumSize));
 }

@@ -7,6 +7,7 @@
 #include "renderer/image/color.h"
 #include "shared/bindings.h"
 #include "shared/denoise_params.h"
+#include "tests/reference/counted.h"
 #include "tests/reference/edge_stops.h"
 
 namespace afterglow::reference {
@@ -24,6 +25,9 @@ struct TemporalInputs {
     const Image<float>& lambda;
     bool historyValid;
     const Image<glm::vec4>* luminanceRange = nullptr; ///< needed with kLambdaFromRange
+    const Image<glm::vec4>* change = nullptr;         ///< with kLambdaCounts and kLambdaLight
+    std::uint32_t changed = 0;                        ///< with kLambdaCounts
+    const Image<glm::uvec4>* samples = nullptr;       ///< with kLambdaCounts
 };
 struct TemporalResult {
     Image<glm::dvec4> accumulated, moments, control;
@@ -98,27 +102,12 @@ inline History findHistory(const TemporalInputs& in, const gpu::TemporalParams& 
     return {sum.color / valid, sum.moments / valid, sum.length / valid, gpu::kHistoryKept};
 }
 
-/// Lambda, known per stratum, at pixel p.
-inline double fetchLambda(const Image<float>& lambda, glm::ivec2 p, int fetch) {
-    const auto at = [&](glm::ivec2 s) {
-        return double(lambda(glm::clamp(s, glm::ivec2(0), lambda.size() - 1)));
-    };
-    const glm::ivec2 own = p / int(gpu::kStratumSize);
-    if (fetch == gpu::kLambdaNearest)
-        return at(own);
-    if (fetch == gpu::kLambdaMax) {
-        double largest = 0.0;
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                largest = std::max(largest, at(own + glm::ivec2(x, y)));
-        return largest;
-    }
-    // Stratum s has its center at 3 s + 3/2, pixel p at p + 1/2.
-    const glm::dvec2 position = (glm::dvec2(p) + 0.5 - 1.5) / 3.0;
-    const glm::ivec2 corner(glm::floor(position));
-    const glm::dvec2 part = position - glm::dvec2(corner);
-    return glm::mix(glm::mix(at(corner), at(corner + glm::ivec2(1, 0)), part.x),
-                    glm::mix(at(corner + glm::ivec2(0, 1)), at(corner + 1), part.x), part.y);
+/// Lambda, known per stratum, at pixel p. `change` is needed with kLambdaLight.
+inline double fetchLambda(const Image<float>& lambda, glm::ivec2 p, int fetch,
+                          const Image<glm::vec4>* change = nullptr) {
+    return fetchOfStrata(
+        lambda.size(), p, fetch, [&](glm::ivec2 s) { return double(lambda(s)); },
+        [&](glm::ivec2 s) { return change ? double((*change)(s).w) : 1.0; });
 }
 
 /// Lambda from the distance between the luminance of the history and the range that the raw frame
@@ -175,18 +164,55 @@ inline glm::dvec3 clampHistory(const TemporalInputs& in, const gpu::TemporalPara
 }
 
 /// The history length after a frame was blended in with weight `alpha`.
-inline double nextLength(int law, double length, double alpha, double lambda) {
+inline double nextLength(int law, double length, double alpha) {
     if (length == 0.0)
         return 1.0;
-    switch (law) {
-    case gpu::kHistoryFrames: return length + 1.0;
-    case gpu::kHistoryPower: return length * std::pow(1.0 - lambda, 10.0) + 1.0;
-    default: return 1.0 / ((1.0 - alpha) * (1.0 - alpha) / length + alpha * alpha);
-    }
+    if (law == gpu::kHistoryEffective)
+        return 1.0 / ((1.0 - alpha) * (1.0 - alpha) / length + alpha * alpha);
+    return length + 1.0;
 }
 
-/// History and the new frame blended. Schied et al. 2017, section 4.1; the weight is that of
-/// Schied et al. 2018, section 4.4.
+/// A history ready to be blended with the new frame, and the weights of that frame.
+struct Blend {
+    glm::dvec3 color;
+    glm::dvec2 moments;
+    double alpha, alphaMoments;
+    double length; ///< afterwards, before its limit
+};
+
+/// Of the counted history. `color` is that of the history after any clamp.
+inline Blend countedBlend(const TemporalInputs& in, const gpu::TemporalParams& params, glm::ivec2 p,
+                          const History& history, glm::dvec3 color) {
+    if (history.length == 0.0)
+        return {color, history.moments, 1.0, 1.0, 1.0};
+    const CountedHistory counted = count({color, history.moments, history.length},
+                                         {in.lambda, *in.change, in.changed, *in.samples}, params,
+                                         p, glm::dvec2(p) + glm::dvec2(in.motion(p)));
+    const double length = counted.samples + counted.newSample;
+    const double alpha = counted.newSample / length;
+    return {counted.color, counted.moments, alpha, std::max(alpha, double(params.alphaMoments)),
+            length};
+}
+
+/// Of every other filter. Schied et al. 2018, section 4.4.
+inline Blend plainBlend(const gpu::TemporalParams& params, const History& history, glm::dvec3 color,
+                        double lambda) {
+    // Confidence shortens the history; otherwise lambda blends.
+    const bool cuts = params.lambdaUse == gpu::kLambdaCuts;
+    const double confidence = cuts ? (1.0 - lambda) * (1.0 - lambda) : 1.0;
+    const double blend = cuts ? 0.0 : lambda;
+    double kept = history.length * glm::mix(confidence, 1.0, 1.0 / (1.0 + history.length));
+    if (params.historyLaw == gpu::kHistoryPower)
+        kept *= std::pow(1.0 - blend, 10.0);
+    const auto adapted = [&](double alpha) {
+        return (1.0 - blend) * std::max(alpha, 1.0 / (kept + 1.0)) + blend;
+    };
+    const double alpha = adapted(params.alpha);
+    return {color, history.moments, alpha, adapted(params.alphaMoments),
+            nextLength(params.historyLaw, kept, alpha)};
+}
+
+/// History and the new frame blended. Schied et al. 2017, section 4.1.
 inline TemporalResult temporal(const TemporalInputs& in, const gpu::TemporalParams& params) {
     const glm::ivec2 size = in.raw.size();
     TemporalResult out{Image<glm::dvec4>(size), Image<glm::dvec4>(size), Image<glm::dvec4>(size)};
@@ -198,32 +224,24 @@ inline TemporalResult temporal(const TemporalInputs& in, const gpu::TemporalPara
             const History history = findHistory(in, params, p, out.margin);
             double lambda = 0.0;
             if (params.lambdaSource == gpu::kLambdaFromGradient)
-                lambda = fetchLambda(in.lambda, p, params.lambdaFetch);
+                lambda = fetchLambda(in.lambda, p, params.lambdaFetch, in.change);
             else if (params.lambdaSource == gpu::kLambdaFromRange)
                 lambda = rangeLambda(*in.luminanceRange, p, history, params.percentileSlope);
 
-            // Confidence shortens the history; otherwise lambda blends.
-            const bool cuts = params.lambdaUse == gpu::kLambdaCuts;
-            const double confidence = cuts ? (1.0 - lambda) * (1.0 - lambda) : 1.0;
-            const double kept =
-                history.length * glm::mix(confidence, 1.0, 1.0 / (1.0 + history.length));
-            const double blend = cuts ? 0.0 : lambda;
-            const auto adapted = [&](double alpha) {
-                const double a = std::max(alpha, 1.0 / (kept + 1.0));
-                return (1.0 - blend) * a + blend;
-            };
-            const double alpha = adapted(params.alpha);
-            const double alphaMoments = adapted(params.alphaMoments);
-
-            const double l = in.raw(p).a;
-            const glm::dvec2 moments = glm::mix(history.moments, {l, l * l}, alphaMoments);
-            const double length = std::min(double(params.maxHistory),
-                                           nextLength(params.historyLaw, kept, alpha, blend));
+            const bool counts = params.lambdaUse == gpu::kLambdaCounts;
+            if (counts && (in.changed == 0 || history.length == 0.0))
+                lambda = 0.0; // the strata are not asked
             const glm::dvec3 color = clampHistory(in, params, p, history.color);
-            out.accumulated(p) = glm::dvec4(glm::mix(color, glm::dvec3(in.raw(p)), alpha),
-                                            history.length > 0.0 ? luminance(history.color) : 0.0);
+            const Blend blend = counts ? countedBlend(in, params, p, history, color)
+                                       : plainBlend(params, history, color, lambda);
+            const double l = in.raw(p).a;
+            const glm::dvec2 moments = glm::mix(blend.moments, {l, l * l}, blend.alphaMoments);
+            const double length = std::min(double(params.maxHistory), blend.length);
+            out.accumulated(p) =
+                glm::dvec4(glm::mix(blend.color, glm::dvec3(in.raw(p)), blend.alpha),
+                           history.length > 0.0 ? luminance(history.color) : 0.0);
             out.moments(p) = glm::dvec4(moments, length, 0.0);
-            out.control(p) = glm::dvec4(lambda, alpha, length, history.reason);
+            out.control(p) = glm::dvec4(lambda, blend.alpha, length, history.reason);
         }
     return out;
 }

@@ -32,7 +32,8 @@ inline glm::dvec2 spatialMoments(const VarianceInputs& in, const gpu::VariancePa
     return sum / total;
 }
 
-/// The accumulated signal and the variance of its luminance. Schied et al. 2017, section 4.2.
+/// The accumulated signal and the variance of its luminance. Schied et al. 2017, section 4.2; with
+/// an exponent, that of a mean over the history.
 inline Image<glm::dvec4> variance(const VarianceInputs& in, const gpu::VarianceParams& params) {
     Image<glm::dvec4> result(in.guides.size());
     for (int py = 0; py < in.guides.size().y; ++py)
@@ -45,7 +46,12 @@ inline Image<glm::dvec4> variance(const VarianceInputs& in, const gpu::VarianceP
             const bool isLong = history >= wanted;
             const glm::dvec2 mu =
                 isLong ? glm::dvec2(in.moments(p)) : spatialMoments(in, params, p);
-            const double factor = isLong ? 1.0 : wanted / std::max(history, 1.0);
+            const double n = std::max(history, 1.0);
+            const double exponent = params.varianceExponent;
+            double factor =
+                std::pow(n, -exponent) * (1.0 + double(params.shortHistoryBoost) / (n * n));
+            if (!isLong && exponent == 0.0)
+                factor *= wanted / n;
             result(p) = glm::dvec4(glm::dvec3(in.accumulated(p)),
                                    factor * std::max(0.0, mu.y - mu.x * mu.x));
         }

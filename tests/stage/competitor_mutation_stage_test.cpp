@@ -118,7 +118,8 @@ TEST_CASE("errors planted in the confidence do not pass") {
           "(1.0 - confidence) / max(history.samples, 1.0)"},
          {"cut to nothing", file, "confidence + (1.0 - confidence) / (history.samples + 1.0)",
           "confidence"},
-         {"cut and blended", file, "        l = 0.0;\n", ""},
+         {"cut and blended", file, "(history.samples + 1.0);\n        l = 0.0;\n",
+          "(history.samples + 1.0);\n"},
          {"lambda not told", file, "vec4(fetchedLambda, alpha", "vec4(l, alpha"}});
 }
 

@@ -25,7 +25,11 @@ inline const gpu::TemporalParams kPlain{.alpha = 0.1f,
                                         .lambdaUse = gpu::kLambdaBlends,
                                         .percentileSlope = 1.0f,
                                         .clampSigmas = 1.0f,
-                                        .clampRadius = -1};
+                                        .clampRadius = -1,
+                                        .reactivity = 20.0f,
+                                        .historyDuringChange = 8.0f,
+                                        .historyBetweenPixels = 16.0f,
+                                        .countReusedOnce = 1};
 
 inline gpu::TemporalParams clamped(int radius, float sigmas) {
     gpu::TemporalParams params = kPlain;

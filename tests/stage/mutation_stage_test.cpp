@@ -65,7 +65,11 @@ Verdict measureTemporal(ShaderLibrary& shaders) {
                                                  gpu::kLambdaBlends,
                                                  1.0f,
                                                  1.0f,
-                                                 -1};
+                                                 -1,
+                                                 20.0f,
+                                                 8.0f,
+                                                 16.0f,
+                                                 0};
                 const auto images = runTemporal(shaders, frame, true, params);
                 const auto expected = reference::temporal(
                     {frame.raw, frame.visibility, frame.previousVisibility, frame.guides,
@@ -82,8 +86,9 @@ Verdict measureTemporal(ShaderLibrary& shaders) {
 Verdict measureVariance(ShaderLibrary& shaders) {
     Verdict verdict;
     const RandomFrame frame({61, 37}, 21);
-    for (const gpu::VarianceParams& params : {gpu::VarianceParams{128.0f, 1.0f, 4.0f, 0.0f},
-                                              gpu::VarianceParams{1.0f, 20.0f, 4.0f, 0.0f}})
+    for (const gpu::VarianceParams& params :
+         {gpu::VarianceParams{128.0f, 1.0f, 4.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f},
+          gpu::VarianceParams{1.0f, 20.0f, 4.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}})
         verdict.add(runVariance(shaders, frame, params),
                     reference::variance(
                         {frame.accumulated, frame.moments, frame.guides, frame.slope}, params));
@@ -241,7 +246,7 @@ TEST_CASE("errors planted in the variance stage do not pass") {
     const std::string file = "denoise/variance.comp";
     checkMutants(
         measureVariance,
-        {{"factor 4/N dropped", file, "params.minHistory / max(history, 1.0)", "1.0"},
+        {{"factor 4/N dropped", file, "params.minHistory / samples", "1.0"},
          {"factor 4/N without a limit", file, "max(history, 1.0)", "(history + 1.0)"},
          {"5x5 for 7x7", file, "kRadius = 3", "kRadius = 2"},
          {"one frame too many in space", file, "history < params.minHistory",
@@ -260,9 +265,12 @@ TEST_CASE("errors planted in the gradient samples do not pass") {
     const std::string file = "denoise/gradient.comp";
     checkMutants(
         measureGradient,
-        {{"the smaller for the larger", file, "max(now, before)", "min(now, before)"},
-         {"delta with the wrong sign", file, "now - before", "before - now"},
-         {"delta without its sign", file, "now - before", "abs(now - before)"},
+        {{"the smaller for the larger", file, "max(pair.now.a, pair.before.a)",
+          "min(pair.now.a, pair.before.a)"},
+         {"delta with the wrong sign", file, "pair.now.a - pair.before.a",
+          "pair.before.a - pair.now.a"},
+         {"delta without its sign", file, "pair.now.a - pair.before.a",
+          "abs(pair.now.a - pair.before.a)"},
          {"magnitude exchanged", file, "== kGradientAbsolute", "!= kGradientAbsolute"},
          {"x and y of the place exchanged", file, "place % kStratumSize, place / kStratumSize",
           "place / kStratumSize, place % kStratumSize"},
@@ -272,9 +280,9 @@ TEST_CASE("errors planted in the gradient samples do not pass") {
          {"variance of a sample", file, "(values[i] - mean) / float(count)",
           "(values[i] - mean) / max(1.0, float(count - 1))"},
          {"the old luminance where the sample landed", file, "unpackPixel(carried.z)",
-          "first + ivec2((carried.y - 1u) % 3u, (carried.y - 1u) / 3u)"},
-         {"the old luminance of this frame", file, "float before = fetch(previousRaw,",
-          "float before = 1e-30 * fetch(previousRaw, s).a + fetch(raw,"}});
+          "s * 3 + ivec2((carried.y - 1u) % 3u, (carried.y - 1u) / 3u)"},
+         {"the old luminance of this frame", file, "LightPair(fetch(previousRaw,",
+          "LightPair(1e-30 * fetch(previousRaw, s) + fetch(raw,"}});
 }
 
 TEST_CASE("errors planted in the guides of strata do not pass") {
@@ -291,15 +299,14 @@ TEST_CASE("errors planted in the gradient reconstruction do not pass") {
     checkMutants(
         measureGradientAtrous,
         {{"distance in strata", file, "vec2(offset) * float(kStratumSize)", "vec2(offset)"},
-         {"edges of delta, not of luminance", file, "fetch(strataGuides, t), other.z",
-          "fetch(strataGuides, t), other.x"},
-         {"variance weight not squared", file, "w * w * other.w", "w * other.w"},
-         {"variance smoothed from another channel", file, "ivec2(0), last)).w",
-          "ivec2(0), last)).z"},
+         {"edges of delta, not of luminance", file, "return c.change.z;", "return c.change.x;"},
+         {"variance weight not squared", file, "c.change;\n    sum.variance += weight * weight",
+          "c.change;\n    sum.variance += weight"},
+         {"variance smoothed from another channel", file, "return fetch(gradient, s).w;",
+          "return fetch(gradient, s).z;"},
          {"background as a tap", "lib/edge_stopping.glsl", "otherGuide.w == 0.0 ? 0.0 : weight",
           "weight"},
-         {"background blackened", file, "imageStore(filtered, s, center)",
-          "imageStore(filtered, s, vec4(0.0))"},
+         {"background blackened", file, "store(s, center, 1.0)", "store(s, kNothing, 1.0)"},
          {"box with a light middle", "lib/kernel.glsl", "1.0 / 3.0, 1.0 / 3.0",
           "1.0 / 4.0, 3.0 / 8.0"}});
 }

@@ -2,9 +2,11 @@
 #include "tests/stage/stage_runner.h"
 
 #include <array>
+#include <optional>
 
 #include "renderer/gl/buffer.h"
 #include "renderer/passes/atrous_pass.h"
+#include "renderer/passes/change_pass.h"
 #include "renderer/passes/gradient_pass.h"
 #include "renderer/passes/luminance_range_pass.h"
 #include "renderer/passes/temporal_pass.h"
@@ -20,6 +22,23 @@ template <class Pixel>
 GpuTexture output(std::string_view label, glm::ivec2 size) {
     return upload(label, Image<Pixel>(size, Pixel(-1234.5f)));
 }
+
+struct LightPairTextures {
+    explicit LightPairTextures(glm::ivec2 strata)
+        : before(output<glm::vec4>("before", strata)), now(output<glm::vec4>("now", strata)),
+          products(output<glm::vec4>("products", strata)) {}
+    explicit LightPairTextures(const RandomFrame& frame)
+        : before(upload("before", frame.before)), now(upload("now", frame.now)),
+          products(upload("products", frame.products)) {}
+
+    LightPairs pairs() { return {before, now, products}; }
+    LightPairImages read(std::uint32_t changed = 0) const {
+        return {before.read<glm::vec4>(), now.read<glm::vec4>(), products.read<glm::vec4>(),
+                changed};
+    }
+
+    GpuTexture before, now, products;
+};
 
 /// The timer and the frame's uniform block that passes run with.
 struct Stage {
@@ -79,6 +98,10 @@ TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, boo
     const GpuTexture previousMoments = upload("previous moments", frame.previousMoments);
     const GpuTexture lambda = upload("lambda", frame.lambda);
     const GpuTexture luminanceRange = upload("luminance range", luminanceRanges(frame));
+    const GpuTexture change = upload("change", frame.change);
+    const GpuTexture changed =
+        upload("changed", Image<std::uint32_t>(glm::ivec2(1), frame.changed));
+    const GpuTexture samples = upload("samples", frame.samples);
     GpuTexture accumulated = output<glm::vec4>("accumulated", frame.size);
     GpuTexture moments = output<glm::vec4>("moments", frame.size);
     GpuTexture control = output<glm::vec4>("control", frame.size);
@@ -92,7 +115,10 @@ TemporalImages runTemporal(ShaderLibrary& shaders, const RandomFrame& frame, boo
                                   .previousColor = previousColor,
                                   .previousMoments = previousMoments,
                                   .lambda = lambda,
-                                  .luminanceRange = luminanceRange};
+                                  .luminanceRange = luminanceRange,
+                                  .change = change,
+                                  .changed = changed,
+                                  .samples = samples};
     TemporalPass pass(shaders);
     pass.run(stage.context, in, {accumulated, moments, control}, params);
     if (findings) {
@@ -173,6 +199,45 @@ Image<float> runLambda(ShaderLibrary& shaders, const RandomFrame& frame,
     GpuTexture lambda = output<float>("lambda", frame.strata);
     LambdaPass(shaders).run(stage.context, {gradient}, {lambda}, params);
     return lambda.read<float>();
+}
+
+LightPairImages runLightPairs(ShaderLibrary& shaders, const RandomFrame& frame,
+                              const Image<glm::vec4>* sampleRaw) {
+    Stage stage(frame);
+    const GpuTexture raw = upload("raw", frame.raw);
+    const GpuTexture previousRaw = upload("previous raw", frame.previousRaw);
+    const GpuTexture samples = upload("samples", frame.samples);
+    const GpuTexture guides = upload("guides", frame.guides);
+    std::optional<GpuTexture> beside;
+    if (sampleRaw)
+        beside.emplace(upload("sample raw", *sampleRaw));
+    LightPairTextures out(frame.strata);
+    GpuTexture changed = upload("changed", Image<std::uint32_t>(glm::ivec2(1), 1234u));
+    LightPairsPass(shaders).run(stage.context,
+                                {raw, previousRaw, samples, guides, beside ? &*beside : nullptr},
+                                {out.pairs(), changed});
+    return out.read(changed.read<std::uint32_t>()(glm::ivec2(0)));
+}
+
+LightPairImages runLightPairsAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
+                                    const gpu::EdgeStopping& params) {
+    Stage stage(frame);
+    LightPairTextures in(frame), out(frame.strata);
+    const GpuTexture guides = upload("strata guides", frame.strataGuides);
+    const GpuTexture slope = upload("strata slope", frame.strataSlope);
+    LightPairsAtrousPass(shaders).run(stage.context, {in.pairs(), guides, slope}, {out.pairs()},
+                                      kernel, params);
+    return out.read();
+}
+
+ChangeOfLight runChange(ShaderLibrary& shaders, const RandomFrame& frame,
+                        const gpu::ChangeParams& params) {
+    Stage stage(frame);
+    LightPairTextures in(frame);
+    GpuTexture lambda = output<float>("lambda", frame.strata);
+    GpuTexture change = output<glm::vec4>("change", frame.strata);
+    ChangePass(shaders).run(stage.context, {in.pairs()}, {lambda, change}, params);
+    return {lambda.read<float>(), change.read<glm::vec4>()};
 }
 
 } // namespace afterglow::test

@@ -50,4 +50,22 @@ Image<glm::vec4> runGradientAtrous(ShaderLibrary& shaders, const RandomFrame& fr
 Image<float> runLambda(ShaderLibrary& shaders, const RandomFrame& frame,
                        const gpu::GradientParams& params);
 
+struct LightPairImages {
+    Image<glm::vec4> before, now, products;
+    std::uint32_t changed = 0; ///< strata
+};
+/// `sampleRaw`, one texel a stratum: light of samples beside the picture.
+LightPairImages runLightPairs(ShaderLibrary& shaders, const RandomFrame& frame,
+                              const Image<glm::vec4>* sampleRaw = nullptr);
+
+LightPairImages runLightPairsAtrous(ShaderLibrary& shaders, const RandomFrame& frame, Kernel kernel,
+                                    const gpu::EdgeStopping& params);
+
+struct ChangeOfLight {
+    Image<float> lambda;
+    Image<glm::vec4> change;
+};
+ChangeOfLight runChange(ShaderLibrary& shaders, const RandomFrame& frame,
+                        const gpu::ChangeParams& params);
+
 } // namespace afterglow::test

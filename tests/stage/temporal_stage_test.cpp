@@ -28,7 +28,11 @@ const gpu::TemporalParams kParams{.alpha = 0.1f,
                                   .lambdaUse = gpu::kLambdaBlends,
                                   .percentileSlope = 1.0f,
                                   .clampSigmas = 1.0f,
-                                  .clampRadius = -1};
+                                  .clampRadius = -1,
+                                  .reactivity = 20.0f,
+                                  .historyDuringChange = 8.0f,
+                                  .historyBetweenPixels = 16.0f,
+                                  .countReusedOnce = 1};
 
 reference::TemporalResult expect(const RandomFrame& frame, bool historyValid,
                                  const gpu::TemporalParams& params) {

@@ -3,6 +3,7 @@
 
 #include "renderer/gl/texture.h"
 
+#include <cstdint>
 #include <string_view>
 
 namespace afterglow::test {
@@ -11,6 +12,8 @@ template <class Pixel>
 constexpr PixelFormat kFormatOf{};
 template <>
 inline constexpr PixelFormat kFormatOf<float> = PixelFormat::R32F;
+template <>
+inline constexpr PixelFormat kFormatOf<std::uint32_t> = PixelFormat::R32UI;
 template <>
 inline constexpr PixelFormat kFormatOf<glm::vec2> = PixelFormat::RG32F;
 template <>

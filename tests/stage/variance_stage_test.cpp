@@ -21,10 +21,12 @@ TEST_CASE("variance follows the paper, at every size, with short and long histor
     for (const glm::ivec2 size : kStageSizes)
         for (const std::uint32_t seed : {7u, 8u, 9u})
             for (const gpu::VarianceParams& params :
-                 {gpu::VarianceParams{128.0f, 1.0f, 4.0f, 0.0f},
-                  gpu::VarianceParams{8.0f, 0.25f, 4.0f, 0.0f},
-                  gpu::VarianceParams{32.0f, 10.0f, 11.0f, 0.0f},  // all of them short
-                  gpu::VarianceParams{32.0f, 1.0f, 0.0f, 0.0f}}) { // all of them long
+                 {gpu::VarianceParams{128.0f, 1.0f, 4.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f},
+                  gpu::VarianceParams{8.0f, 0.25f, 4.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f},
+                  gpu::VarianceParams{32.0f, 10.0f, 11.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+                                      0.0f}, // all of them short
+                  gpu::VarianceParams{32.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+                                      0.0f}}) { // all of them long
                 CAPTURE(size.x);
                 CAPTURE(size.y);
                 CAPTURE(seed);
@@ -43,7 +45,8 @@ TEST_CASE("variance follows the paper, at every size, with short and long histor
 
 TEST_CASE("the variance stage does not touch the signal") {
     const RandomFrame frame({61, 37}, 7);
-    const auto filtered = runVariance(testShaders(), frame, {128.0f, 1.0f, 4.0f, 0.0f});
+    const auto filtered =
+        runVariance(testShaders(), frame, {128.0f, 1.0f, 4.0f, 1.25f, 2.0f, 0.0f, 0.0f, 0.0f});
     int compared = 0;
     for (std::size_t i = 0; i < filtered.pixels().size(); ++i)
         if (frame.guides.pixels()[i].w != 0.0f) {

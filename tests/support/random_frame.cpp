@@ -121,6 +121,67 @@ glm::vec4 randomMoments(Dice& dice, float level) {
     return {mean, mean * mean + spread, lengths[dice.below(6)], 0.0f};
 }
 
+/// Returns the light that a sample with the light `now` had in the frame before.
+glm::vec3 changedLight(Dice& dice, glm::vec3 now, bool isSame) {
+    if (isSame)
+        return now;
+    switch (dice.below(9)) {
+    case 0: return glm::vec3(0.0f);
+    case 1: return now * 1.0005f + 5e-7f; // too little to count, also where it was black
+    case 2: return now * 1.002f + 2e-6f;  // just enough
+    case 3: return {now.b, now.r, now.g};
+    case 4: return now * (glm::vec3(1.0f) + dice.inCube(0.5f));
+    case 5: return glm::vec3(0.6f) + dice.inCube(0.5f);
+    case 6: return now * glm::vec3(1.0f, 1.0f, 0.5f);
+    default: return now * dice.uniform(0.0f, 2.0f); // one factor for all channels
+    }
+}
+
+/// Returns E, v, scale and weight of a stratum whose light has changed by `lambda`.
+glm::vec4 randomChange(Dice& dice, float lambda) {
+    const float kind = dice.uniform();
+    // What a factor does not explain: nothing of it, all of it, or a part. Never nothing of a
+    // change to or from black: a small E beside 1.0001 - lambda is nothing that 32 bits can hold.
+    const float left = kind < 0.2f && lambda < 0.9f ? 0.0f
+                       : kind < 0.4f                ? 1.0f
+                                                    : dice.uniform(0.1f, 1.0f);
+    const float scale = dice.chance(0.2f) ? 1.0f : dice.uniform(0.0f, 2.0f);
+    const float variance = dice.chance(0.2f) ? 0.0f : dice.uniform(0.0f, 6.0f);
+    const float weight = dice.chance(0.3f) ? 0.0f : dice.uniform(0.0f, 2.0f);
+    return {lambda * lambda * left, variance, lambda > 0.0f ? scale : 1.0f, weight};
+}
+
+struct LightPair {
+    glm::vec4 before; ///< light, and how much of a sample there is
+    glm::vec3 now, products;
+};
+
+/// Returns the sum of a few samples with a weight, as filtered light pairs hold it.
+LightPair randomLightPair(Dice& dice) {
+    LightPair sum{};
+    if (dice.chance(0.1f))
+        return sum; // no sample around
+    const int count = 1 + dice.below(3);
+    const float weight = (dice.chance(0.3f) ? 1.0f : dice.uniform(0.05f, 0.9f)) / float(count);
+    const float level = dice.chance(0.1f) ? 1e-4f : dice.chance(0.1f) ? 0.0f : 1.0f;
+    const int kind = dice.below(6);
+    const float factor = dice.uniform(0.0f, 4.0f);
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3 a = level * (glm::vec3(0.6f) + dice.inCube(0.5f));
+        const glm::vec3 other = level * (glm::vec3(0.6f) + dice.inCube(0.5f));
+        const glm::vec3 b = kind == 0   ? a
+                            : kind == 1 ? a * factor
+                            : kind == 2 ? glm::vec3(a.g, a.b, a.r)
+                            : kind == 3 ? glm::vec3(0.0f)
+                                        : other;
+        const glm::vec3 was = kind == 4 ? glm::vec3(0.0f) : a;
+        sum.before += weight * glm::vec4(was, 1.0f);
+        sum.now += weight * b;
+        sum.products += weight * glm::vec3(glm::dot(was, was), glm::dot(was, b), glm::dot(b, b));
+    }
+    return sum;
+}
+
 const glm::vec4 kGarbage{50.0f, 70.0f, 60.0f, 3.0f};
 const glm::vec4 kBackground{0.0f, 0.0f, 1.0f, 0.0f}; // only the depth says so
 
@@ -130,8 +191,9 @@ RandomFrame::RandomFrame(glm::ivec2 pixels, std::uint32_t seed)
     : size(pixels), strata((pixels + kStratum - 1) / kStratum), visibility(size),
       previousVisibility(size), guides(size), previousGuides(size), slope(size), motion(size),
       raw(size), previousRaw(size), previousColor(size), previousMoments(size), lambda(strata),
-      accumulated(size), moments(size), signal(size), samples(strata), gradient(strata),
-      strataGuides(strata), strataSlope(strata) {
+      change(strata), accumulated(size), moments(size), signal(size), samples(strata),
+      gradient(strata), strataGuides(strata), strataSlope(strata), before(strata), now(strata),
+      products(strata) {
     Dice dice(seed);
     for (glm::vec4& pixel : previousRaw.pixels())
         pixel = kGarbage;
@@ -211,23 +273,53 @@ RandomFrame::RandomFrame(glm::ivec2 pixels, std::uint32_t seed)
             }
             const glm::ivec2 p = foreground[std::size_t(dice.below(int(foreground.size())))];
             if (dice.chance(0.7f)) {
-                const float before = raw(p).a * (dice.chance(0.3f) ? 1.0f : dice.uniform(0, 2.0f));
+                const float then = raw(p).a * (dice.chance(0.3f) ? 1.0f : dice.uniform(0, 2.0f));
                 const glm::ivec2 landing = p - kStratum * s;
                 // Somewhere else: the source of each stratum is in the one opposite to it.
                 const glm::ivec2 source = size - 1 - p;
-                previousRaw(source).a = before;
+                previousRaw(source).a = then;
                 samples(s) = {dice.bits(), std::uint32_t(1 + landing.x + kStratum * landing.y),
                               std::uint32_t(source.x) | std::uint32_t(source.y) << 16, 0};
             }
             if (dice.chance(0.7f)) {
-                const float now = dice.uniform(0.0f, 2.0f), before = dice.uniform(0.0f, 2.0f);
-                gradient(s).x = now - before;
-                gradient(s).y = std::max(now, before);
+                const float b = dice.uniform(0.0f, 2.0f), a = dice.uniform(0.0f, 2.0f);
+                gradient(s).x = b - a;
+                gradient(s).y = std::max(b, a);
             }
             gradient(s).z = dice.uniform(0.2f, 2.0f);
             gradient(s).w = dice.chance(0.2f) ? 0.0f : dice.uniform(0.0f, 0.5f);
             strataGuides(s) = guides(p);
             strataSlope(s) = slope(p);
+        }
+    addChangeOfLight(seed);
+}
+
+void RandomFrame::addChangeOfLight(std::uint32_t seed) {
+    Dice dice(seed ^ 0x5bd1e995u); // of its own: the other images stay what they are
+    for (int y = 0; y < strata.y; ++y)
+        for (int x = 0; x < strata.x; ++x) {
+            const glm::ivec2 s{x, y};
+            change(s) = randomChange(dice, lambda(s));
+            if (strataGuides(s).w == 0.0f) {
+                before(s) = glm::vec4(50.0f, 70.0f, 60.0f, 1.0f);
+                now(s) = glm::vec4(70.0f, 50.0f, 60.0f, 60.0f);
+                products(s) = glm::vec4(12e3f, 11e3f, 13e3f, 3.0f);
+                if (x % 2 == 0) // light without a sample
+                    before(s) = glm::vec4(0.0f);
+                continue;
+            }
+            const LightPair pair = randomLightPair(dice);
+            before(s) = pair.before;
+            now(s) = glm::vec4(pair.now, gradient(s).z);
+            products(s) = glm::vec4(pair.products, gradient(s).w);
+            if (samples(s).y == 0)
+                continue;
+            const int landing = int(samples(s).y) - 1;
+            const glm::ivec2 p = kStratum * s + glm::ivec2(landing % kStratum, landing / kStratum);
+            const glm::ivec2 source(int(samples(s).z & 0xffffu), int(samples(s).z >> 16));
+            glm::vec4& previous = previousRaw(source);
+            const bool isSame = previous.a == raw(p).a && (raw(p).a > 0.0f || dice.chance(0.4f));
+            previous = glm::vec4(changedLight(dice, raw(p), isSame), previous.a);
         }
 }
 

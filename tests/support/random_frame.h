@@ -19,6 +19,9 @@ namespace afterglow {
 /// and bilinear weights are exact in 32 bits; and no validity test comes near its threshold as long
 /// as 1 <= depthTolerance <= 4 and 0.3 <= normalTolerance <= 0.95.
 ///
+/// The samples show every change of light: none at all, one factor for all channels, another color,
+/// from and to black, and steps just below and just above what counts as a change.
+///
 /// Background holds garbage in `signal`, `accumulated`, `moments`, `gradient` and the previous
 /// frame, and a normal, so that a filter which looks there is found out.
 struct RandomFrame {
@@ -36,6 +39,8 @@ struct RandomFrame {
     Image<glm::vec4> previousColor;
     Image<glm::vec4> previousMoments; ///< N is one of 0, 1, 2, 3, 4, 10
     Image<float> lambda;              ///< strata; 0 and 1 occur
+    Image<glm::vec4> change;          ///< strata; E, v, scale, weight; scale is 1 without lambda
+    std::uint32_t changed = 100;      ///< strata whose light has changed
 
     Image<glm::vec4> accumulated;
     Image<glm::vec4> moments; ///< N is one of 0, 1, 2, 3, 4, 10; the variance of some is below 0
@@ -45,6 +50,10 @@ struct RandomFrame {
     Image<glm::vec4> gradient; ///< strata; delta, Delta, mean, variance
     Image<glm::vec4> strataGuides;
     Image<glm::vec2> strataSlope;
+    Image<glm::vec4> before, now, products; ///< strata; light pairs, as after some iterations
+
+private:
+    void addChangeOfLight(std::uint32_t seed);
 };
 
 } // namespace afterglow

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "tests/reference/atrous.h"
@@ -26,10 +27,20 @@ const gpu::TemporalParams kTemporal{.alpha = 0.1f,
                                     .lambdaUse = gpu::kLambdaBlends,
                                     .percentileSlope = 1.0f,
                                     .clampSigmas = 1.0f,
-                                    .clampRadius = -1};
+                                    .clampRadius = -1,
+                                    .reactivity = 20.0f,
+                                    .historyDuringChange = 8.0f,
+                                    .historyBetweenPixels = 16.0f,
+                                    .countReusedOnce = 1};
 
-const gpu::VarianceParams kVariance{
-    .sigmaNormal = 128.0f, .sigmaDepth = 1.0f, .minHistory = 4.0f, .unused0 = 0.0f};
+const gpu::VarianceParams kVariance{.sigmaNormal = 128.0f,
+                                    .sigmaDepth = 1.0f,
+                                    .minHistory = 4.0f,
+                                    .varianceExponent = 0.0f,
+                                    .shortHistoryBoost = 0.0f,
+                                    .unused0 = 0.0f,
+                                    .unused1 = 0.0f,
+                                    .unused2 = 0.0f};
 
 gpu::GradientParams gradientParams(float deltaFloor, float forceLambda) {
     return {deltaFloor, forceLambda, gpu::kGradientSigned, 0.0f};
@@ -176,19 +187,33 @@ TEST_CASE("with alpha 1, or with lambda 1, the temporal stage returns its input"
 TEST_CASE("plain averaging lengthens the history by one frame, a reset makes it one") {
     for (const int law : {gpu::kHistoryEffective, gpu::kHistoryFrames, gpu::kHistoryPower})
         for (const double n : {1.0, 2.0, 3.5, 10.0, 200.0})
-            CHECK(reference::nextLength(law, n, 1.0 / (n + 1.0), 0.0) ==
+            CHECK(reference::nextLength(law, n, 1.0 / (n + 1.0)) ==
                   doctest::Approx(n + 1.0).epsilon(1e-12));
-    for (const int law : {gpu::kHistoryEffective, gpu::kHistoryPower})
-        CHECK(reference::nextLength(law, 57.0, 1.0, 1.0) == doctest::Approx(1.0));
+    CHECK(reference::nextLength(gpu::kHistoryEffective, 57.0, 1.0) == doctest::Approx(1.0));
     // This law does not know lambda: that is its fault, and why the others exist.
-    CHECK(reference::nextLength(gpu::kHistoryFrames, 57.0, 1.0, 1.0) == 58.0);
+    CHECK(reference::nextLength(gpu::kHistoryFrames, 57.0, 1.0) == 58.0);
+}
+
+TEST_CASE("the history law power shortens the history in the frame of the change") {
+    Wall wall({3, 3});
+    fill(wall.moments, glm::vec4(0.0f, 0.0f, 57.0f, 0.0f));
+    fill(wall.lambda, 0.25f);
+    gpu::TemporalParams params = kTemporal;
+    params.alpha = params.alphaMoments = 0.0f;
+    params.historyLaw = gpu::kHistoryPower;
+    const double kept = 57.0 * std::pow(0.75, 10.0);
+    const auto changed = wall.temporal(params);
+    CHECK(changed.control({1, 1}).y == doctest::Approx(0.75 / (kept + 1.0) + 0.25));
+    CHECK(changed.moments({1, 1}).z == doctest::Approx(kept + 1.0));
+    fill(wall.lambda, 1.0f);
+    CHECK(wall.temporal(params).moments({1, 1}).z == 1.0);
 }
 
 TEST_CASE("the effective length of an exponential average settles at 2 / alpha - 1") {
     double length = 1.0;
     for (int i = 0; i < 2000; ++i)
         length = reference::nextLength(gpu::kHistoryEffective, length,
-                                       std::max(0.1, 1.0 / (length + 1.0)), 0.0);
+                                       std::max(0.1, 1.0 / (length + 1.0)));
     CHECK(length == doctest::Approx(19.0));
 }
 
