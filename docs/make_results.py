@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Prints docs/results.md from the runs that docs/make_results.sh has made. Every number comes from their files."""
+"""Writes docs/results.md and docs/counted.md from the runs that docs/make_results.sh has made. Every number comes from their files."""
 
+import csv
 import json
 import pathlib
 import sys
@@ -46,7 +47,9 @@ def labels(keys):
 
 
 ORDER = ["static", "light-off", "light-on", "light-dim", "fill-light", "sparse-light", "light-color", "flicker",
-         "light-move", "object-move", "unrelated-light", "camera-pan", "camera-cut"]
+         "light-move", "object-move", "unrelated-light", "camera-pan", "camera-cut", "bounce-off", "door", "gloss-off",
+         "gloss-move", "mirror-walk", "color-bleed"]
+ORDER = [name for name in ORDER if (root / "suite" / name / "summary.json").exists()]
 
 
 def filter_table(folder, names, keys):
@@ -102,6 +105,55 @@ def signal_table():
     return table(["experiment", "signal", "filter"] + labels(keys), rows)
 
 
+def mean_of(run, variant, metric):
+    """The mean of a metric of frames over a whole run."""
+    values = [float(row["value"]) for row in csv.DictReader((root / run / "metrics.csv").open())
+              if row["variant"] == variant and row["metric"] == metric]
+    return sum(values) / len(values)
+
+
+def counted_table():
+    names = ["static", "fill-light", "light-dim", "light-color"]
+    rows = []
+    for variant, s in variants("counted/static").items():
+        row = [f"`{variant}`", cell("rmse_settled", s), cell("flip_settled", s), cell("flicker", s)]
+        for name in names[1:]:
+            of = variants(f"counted/{name}")[variant]
+            row += [number(mean_of(f"counted/{name}", variant, "rmse"), 3), cell("lag_frames", of), cell("noise_after_event", of)]
+        rows.append(row)
+    head = ["filter"] + ["static: " + labels(["rmse_settled"])[0]] + labels(["flip_settled", "flicker"])
+    for name in names[1:]:
+        head += [f"{name}: RMSE of all frames"] + labels(["lag_frames", "noise_after_event"])
+    return table(head, rows)
+
+
+def beside_table():
+    """Every experiment of the suite: the error over all frames, and what else counts, of A-SVGF and counted."""
+    keys = ["rmse_settled", "flip_settled", "flicker", "lag_t90", "lag_frames", "ghost_frames"]
+    rows = []
+    for name in ORDER:
+        timing = read(f"suite/{name}", "timing.json")["variants"]
+        for i, variant in enumerate(["svgf", "asvgf", "counted"]):
+            s = variants(f"suite/{name}")[variant]
+            rows.append([f"`{name}`" if i == 0 else "", variant, number(mean_of(f"suite/{name}", variant, "rmse"), 3)] +
+                        [cell(k, s) for k in keys] + [cell("ms_per_frame", s, timing[variant])])
+    return table(["experiment", "filter", "RMSE of all frames"] + labels(keys + ["ms_per_frame"]), rows)
+
+
+def path_table():
+    keys = ["rmse_settled", "flip_settled", "flicker", "lag_t90", "lag_frames", "rmse_moving"]
+    rows = []
+    for name in ["bounce-off", "gloss-off", "gloss-move", "fill-light"]:
+        for i, signal in enumerate(["path", "split", "bounce"]):
+            timing = read(f"paths/{signal}/{name}", "timing.json")["variants"]
+            for variant, s in variants(f"paths/{signal}/{name}").items():
+                run = f"paths/{signal}/{name}"
+                rows.append([f"`{name}`" if i == 0 and variant == "asvgf" else "", signal, variant,
+                             number(mean_of(run, variant, "rmse"), 3)] + [cell(k, s) for k in keys] +
+                            [cell("ms_per_frame", s, timing[variant])])
+    return table(["experiment", "signal", "filter", "RMSE of all frames"] + labels(keys + ["ms_per_frame"]), rows)
+
+
 def sweep_table():
     points = {}
     for s in variants("sweep").values():
@@ -115,7 +167,12 @@ def sweep_table():
 
 run = read("suite/static", "experiment.json")
 residual = max(r["residual_rmse"] for name in ORDER for r in read(f"suite/{name}", "experiment.json")["references"])
-text = pathlib.Path(__file__).with_name("results_text.md").read_text()
+here = pathlib.Path(__file__).parent
+counted = (here / "counted_text.md").read_text()
+for key, value in {"commit": run["commit"], "counted": counted_table(), "beside": beside_table(), "paths": path_table()}.items():
+    counted = counted.replace("{{" + key + "}}", value)
+(here / "counted.md").write_text(counted)
+text = (here / "results_text.md").read_text()
 for key, value in {
     "commit": run["commit"], "cpu": run["machine"]["cpu"], "threads": str(run["machine"]["threads"]), "os": run["machine"]["os"],
     "gl": run["gl"]["renderer"] + ", " + run["gl"]["version"], "residual": number(residual, 2),
@@ -123,4 +180,4 @@ for key, value in {
 }.items():
     text = text.replace("{{" + key + "}}", value)
 assert "{{" not in text, "a table is missing: " + text[text.index("{{"):][:40]
-sys.stdout.write(text)
+(here / "results.md").write_text(text)

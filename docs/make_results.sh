@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Makes docs/results.md and its pictures: runs the suite, the competitors, the options and a sweep.
+# Makes docs/results.md, docs/counted.md and their pictures: runs the suite, the competitors, the options and a sweep.
 # Usage: docs/make_results.sh [PROGRAM [FOLDER]]    (an hour and a half on two cores without a GPU; what is
 # in FOLDER already is not run again)
 set -euo pipefail
@@ -28,7 +28,7 @@ for signal in both separate; do
 done
 run sweep fill-light --over alpha=0.05,0.1,0.2,0.4,0.8 --filter fixed,svgf,asvgf,percentile --out "$folder/sweep"
 
-/usr/bin/python3 docs/make_results.py "$folder" >docs/results.md
+/usr/bin/python3 docs/make_results.py "$folder"
 mkdir -p docs/images/results
 for name in light-off fill-light light-color sparse-light; do
     ffmpeg -v error -y -i "$folder/suite/$name/contact_sheet.png" -vf scale=1400:-2 -q:v 4 "docs/images/results/$name.jpg"
@@ -36,4 +36,4 @@ done
 node docs/report_picture.mjs "$folder/suite/fill-light/report.html" docs/images/report.png
 node docs/report_picture.mjs "$folder/sweep/report.html" docs/images/results/sweep.png "Noise against lag"
 ffmpeg -v error -y -i "$folder/suite/light-off/contact_sheet.png" -vf scale=1800:-2:flags=lanczos docs/images/light-off.png
-echo "docs/results.md; the suite took $suite s"
+echo "docs/results.md, docs/counted.md; the suite took $suite s"

@@ -45,7 +45,7 @@ struct DenoiserSettings {
     float varianceExponent = 0.0f;
     float shortHistoryBoost = 0.0f;
     int atrousIterations = 5;
-    int feedbackIteration = 1; ///< whose result becomes the history; 0: the unfiltered blend
+    int feedbackIteration = 0; ///< whose result becomes the history; 0: the unfiltered blend
     int gradientIterations = 5;
     int kernel = int(Kernel::B3Spline5x5);
     int gradientKernel = int(Kernel::Box3x3);

@@ -74,14 +74,11 @@ SvgfPlan asSet(const DenoiserSettings& s) {
 
 DenoiserSettings defaultsOf(Filter filter) {
     DenoiserSettings settings;
-    if (filter == Filter::Asvgf)
-        settings.feedbackIteration = 0; // the paper: 1; see docs/results.md, "Options"
     if (filter == Filter::Counted) {
         settings.temporal.lambdaFetch = gpu::kLambdaLight;
         settings.gradientOver = gpu::kChangeOfChannels;
         settings.varianceExponent = 1.25f;
         settings.atrousIterations = 3;
-        settings.feedbackIteration = 0;
     }
     return settings;
 }

@@ -180,8 +180,9 @@ const std::array kFields = std::to_array<Field>({
      "Taps of each of these iterations.",
      "", kSvgf, 0.0, 1.0, false, kKernelNames, AFTERGLOW_FIELD(denoiser.kernel)},
     {"spatial", "feedbackIteration", "Feedback iteration",
-     "Whose result becomes the next frame's history; 0: the unfiltered blend.",
-     "", kSvgf, 0.0, 7.0, false, {}, AFTERGLOW_FIELD(denoiser.feedbackIteration)},
+     "Whose result becomes the next frame's history: 1 as published; 0, the unfiltered blend, has a "
+     "fifth less error.",
+     "", kMeasured, 0.0, 7.0, false, {}, AFTERGLOW_FIELD(denoiser.feedbackIteration)},
     {"spatial", "sigmaLuminance", "Sigma luminance",
      "Edge stop, in standard deviations of the local luminance.",
      "", kSvgf, 0.1, 64.0, true, {}, AFTERGLOW_FIELD(denoiser.edges.sigmaLuminance)},

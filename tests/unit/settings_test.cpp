@@ -126,7 +126,7 @@ TEST_CASE("filters differ in the rows of one plan") {
     CHECK(svgf.temporal.clampRadius == -1);
     CHECK(svgf.temporal.lambdaSource == gpu::kLambdaFromNothing);
     CHECK(svgf.atrousIterations == 5);
-    CHECK(svgf.feedbackIteration == 1);
+    CHECK(svgf.feedbackIteration == 0);
     CHECK_FALSE((svgf.carrySamples || svgf.useLambda || svgf.usePercentiles));
 
     SvgfPlan fixed = svgf, none = svgf, asvgf = svgf, clamp = svgf, percentile = svgf;
@@ -161,7 +161,6 @@ TEST_CASE("filters differ in the rows of one plan") {
     counted.temporal.historyLaw = gpu::kHistoryFrames;
     counted.variance.varianceExponent = 1.25f;
     counted.atrousIterations = 3;
-    counted.feedbackIteration = 0;
     CHECK(isSame(makePlan(defaultSettings(Filter::Counted)), counted));
 }
 
@@ -196,7 +195,7 @@ TEST_CASE("what is at a filter's default follows to the next filter's, and what 
     CHECK(settings.denoiser.feedbackIteration == 2);
     setFilter(settings, Filter::Svgf);
     setField(settings, "alpha", "0.2");
-    setField(settings, "feedbackIteration", "1");
+    setField(settings, "feedbackIteration", "0");
     CHECK(toJson(settings) == toJson(defaultSettings(Filter::Svgf)));
 
     Settings read = defaultSettings(Filter::Asvgf);
