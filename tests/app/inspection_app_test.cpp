@@ -105,7 +105,7 @@ TEST_CASE("the inspector shows the numbers that the images hold, at every pixel,
         CAPTURE(int(placement));
         const std::array batches{
             std::array{Filter::Asvgf, Filter::Confidence, Filter::Percentile, Filter::Clamp},
-            std::array{Filter::Svgf, Filter::Fixed, Filter::None, Filter::Asvgf}};
+            std::array{Filter::Svgf, Filter::Counted, Filter::None, Filter::Asvgf}};
         for (const auto& batch : batches) {
             InspectedScene bench("moving", {19, 11});
             bench.frameSettings.lighting.gradientSamples = int(placement);
@@ -113,7 +113,7 @@ TEST_CASE("the inspector shows the numbers that the images hold, at every pixel,
             for (std::size_t i = 0; i < batch.size(); ++i)
                 runs.push_back({3 - i, withSamples(batch[i], placement)});
             if (batch.back() == Filter::Asvgf) { // variations on a row of the plan
-                runs.back().settings.denoiser.feedbackIteration = 0;
+                runs.back().settings.denoiser.feedbackIteration = 1;
                 runs.back().settings.denoiser.gradientIterations = 0;
             }
             for (const bool on : {true, true, true, false}) {
