@@ -5,6 +5,7 @@
 import csv
 import json
 import pathlib
+import re
 import sys
 
 root = pathlib.Path(sys.argv[1])
@@ -165,19 +166,28 @@ def sweep_table():
     return table(["alpha"] + head, rows)
 
 
+def fill(name, tables):
+    """The text of a document with its tables; a section of runs that were not made, {{#RUN}} to {{/RUN}}, is left out."""
+    text = (here / name).read_text()
+    for run, section in re.findall(r"(?s)\{\{#([^}]*)\}\}\n(.*?)\{\{/", text):
+        marked = "{{#" + run + "}}\n" + section + "{{/" + run + "}}\n"
+        text = text.replace(marked, section if (root / run / "report.html").exists() else "")
+    for key, make in tables.items():
+        if "{{" + key + "}}" in text:
+            text = text.replace("{{" + key + "}}", make if isinstance(make, str) else make())
+    assert "{{" not in text, "a table is missing: " + text[text.index("{{"):][:40]
+    return text.rstrip("\n") + "\n"
+
+
+here = pathlib.Path(__file__).parent
 run = read("suite/static", "experiment.json")
 residual = max(r["residual_rmse"] for name in ORDER for r in read(f"suite/{name}", "experiment.json")["references"])
-here = pathlib.Path(__file__).parent
-counted = (here / "counted_text.md").read_text()
-for key, value in {"commit": run["commit"], "counted": counted_table(), "beside": beside_table(), "paths": path_table()}.items():
-    counted = counted.replace("{{" + key + "}}", value)
-(here / "counted.md").write_text(counted)
-text = (here / "results_text.md").read_text()
-for key, value in {
+of_run = {
     "commit": run["commit"], "cpu": run["machine"]["cpu"], "threads": str(run["machine"]["threads"]), "os": run["machine"]["os"],
     "gl": run["gl"]["renderer"] + ", " + run["gl"]["version"], "residual": number(residual, 2),
-    "suite": suite_table(), "lambda": lambda_table(), "competitors": competitor_table(), "moving": moving_table(), "options": option_table(), "signals": signal_table(), "sweep": sweep_table(),
-}.items():
-    text = text.replace("{{" + key + "}}", value)
-assert "{{" not in text, "a table is missing: " + text[text.index("{{"):][:40]
-(here / "results.md").write_text(text)
+}
+(here / "counted.md").write_text(fill("counted_text.md", of_run | {
+    "counted": counted_table, "beside": beside_table, "paths": path_table}))
+(here / "results.md").write_text(fill("results_text.md", of_run | {
+    "suite": suite_table, "lambda": lambda_table, "competitors": competitor_table, "moving": moving_table,
+    "options": option_table, "signals": signal_table, "sweep": sweep_table}))

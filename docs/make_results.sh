@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=${1:-build/release/bin/afterglow}
 folder=${2:-out/results}
-run() { "$program" "$@" --size 320x180 --context osmesa >/dev/null; }
+run() { "$program" "$@" --size "${size:-320x180}" --context osmesa >/dev/null; }
 
 started=$SECONDS
 run experiment all --out "$folder/suite"
@@ -21,7 +21,7 @@ run experiment static fill-light light-dim light-color \
     --filter counted,counted:gradientOver=luminance,counted:countReusedOnce=off,counted:scaleHistory=off,counted:historyDuringChange=128,counted:historyBetweenPixels=128,counted:varianceExponent=0,counted:varianceExponent=1,counted:atrousIterations=5,counted:feedbackIteration=1,counted:maxHistory=32,counted:shortHistoryBoost=3,counted:reactivity=100,counted:lambdaFetch=max:reactivity=200 \
     --out "$folder/counted"
 for signal in path split bounce; do
-    run experiment bounce-off gloss-off gloss-move fill-light --signal $signal --filter asvgf,counted --out "$folder/paths/$signal"
+    size=192x108 run experiment bounce-off gloss-off gloss-move fill-light --signal $signal --filter asvgf,counted --out "$folder/paths/$signal"
 done
 for signal in both separate; do
     run experiment light-off light-dim fill-light sparse-light --signal $signal --filter svgf,asvgf,counted --out "$folder/signals/$signal"

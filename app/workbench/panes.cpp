@@ -192,11 +192,14 @@ ProbePane recordOf(const Panes& panes, std::size_t pane) {
 std::string parametersOf(const Pane& pane) {
     if (pane.settings.filter == Filter::None)
         return {};
-    std::string text =
-        fmt::format("\xce\xb1 {:.3g}", double(pane.settings.denoiser.temporal.alpha));
+    const gpu::TemporalParams& temporal = pane.settings.denoiser.temporal;
+    std::string text = pane.settings.filter == Filter::Counted
+                           ? fmt::format("up to {:.3g} samples", double(temporal.maxHistory))
+                           : fmt::format("\xce\xb1 {:.3g}", double(temporal.alpha));
     const Settings settings{{}, pane.settings};
     for (const Field* field : differingFields(settings, defaultSettings(settings.filter)))
-        if (field->key != "alpha")
+        if (field->key != "alpha" &&
+            !(field->key == "maxHistory" && pane.settings.filter == Filter::Counted))
             text += ", " + std::string(field->key) + " " +
                     valueText(*field, fieldValue(settings, *field));
     return text;
