@@ -7,6 +7,7 @@ import json
 import pathlib
 import re
 import sys
+import textwrap
 
 root = pathlib.Path(sys.argv[1])
 
@@ -176,7 +177,9 @@ def fill(name, tables):
         if "{{" + key + "}}" in text:
             text = text.replace("{{" + key + "}}", make if isinstance(make, str) else make())
     assert "{{" not in text, "a table is missing: " + text[text.index("{{"):][:40]
-    return text.rstrip("\n") + "\n"
+    paragraphs = [textwrap.fill(p.replace("\n", " "), 120, break_long_words=False, break_on_hyphens=False)
+                  if p.startswith("Made by") else p for p in text.rstrip("\n").split("\n\n")]
+    return "\n\n".join(paragraphs) + "\n"
 
 
 here = pathlib.Path(__file__).parent
