@@ -28,7 +28,7 @@ constexpr std::uint32_t kParts = 64;          ///< so many at least, where items
 constexpr std::uint32_t kSmallestPart = 2048; ///< items
 constexpr std::uint32_t kChunk = 32768;       ///< items that a thread takes at a time
 
-/// What all parts of a tree share.
+/// State that all parts of a tree share.
 struct Build {
     std::span<const BvhRecord> leaves;
     BvhOptions options;

@@ -8,9 +8,9 @@
 #include <limits>
 #include <span>
 
-// What the builder of trees splits, and how. Wald, "On fast Construction of SAH-based Bounding
-// Volume Hierarchies", RT 2007: items fall into bins by their centers, and a range is split between
-// two bins. Seen by bvh_build.cpp alone.
+// Splits of the items of a tree by binned surface areas. Wald, "On fast Construction of SAH-based
+// Bounding Volume Hierarchies", RT 2007: items fall into bins by their centers, and a range is
+// split between two bins. Seen by bvh_build.cpp alone.
 
 namespace afterglow::bvh {
 

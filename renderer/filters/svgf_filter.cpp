@@ -104,12 +104,8 @@ void SvgfFilter::reconstructChange(const Run& run) {
     const auto pairsAt = [&own = own](svgf::Image first) -> LightPairs {
         return {own[first], own[first + 1], own[first + 2]};
     };
-    const GradientPass::Inputs samples = gradientInputs(in);
     svgf::Image newest = kBefore;
-    lightPairs_.run(
-        frame,
-        {samples.raw, samples.previousRaw, samples.samples, samples.guides, samples.sampleRaw},
-        {pairsAt(newest), own[kChanged]});
+    lightPairs_.run(frame, gradientInputs(in), {pairsAt(newest), own[kChanged]});
     gpu::EdgeStopping edges = plan.gradientEdges;
     for (int k = 0; k < plan.gradientIterations; ++k) {
         edges.step = plan.gradientStep(k);

@@ -6,22 +6,15 @@ namespace afterglow {
 void LightPairsPass::run(FrameContext& frame, const Inputs& in, const Outputs& out) {
     const auto scope =
         frame.pass("light pairs", {&out.pairs.before, &out.pairs.now, &out.pairs.products});
-    Defines defines{{"CHANNELS", "1"}};
-    std::vector<Binding> reads{{"raw", in.raw},
-                               {"previousRaw", in.previousRaw},
-                               {"samples", in.samples},
-                               {"guides", in.guides}};
-    if (in.sampleRaw) {
-        defines.emplace_back("EXTRA_SAMPLES", "1");
-        reads.emplace_back("sampleRaw", *in.sampleRaw);
-    }
+    Defines defines = in.defines();
+    defines.emplace_back("CHANNELS", "1");
     const std::array<Binding, 4> writes{Binding{"before", out.pairs.before},
                                         {"now", out.pairs.now},
                                         {"products", out.pairs.products},
                                         {"changed", out.changed}};
     out.changed.clear();
     shaders_.compute("denoise/gradient.comp", defines)
-        .dispatch(out.pairs.before.size(), reads, writes);
+        .dispatch(out.pairs.before.size(), in.bindings(), writes);
 }
 
 void LightPairsAtrousPass::run(FrameContext& frame, const Inputs& in, const Outputs& out,

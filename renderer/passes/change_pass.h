@@ -2,7 +2,7 @@
 #pragma once
 
 #include "renderer/gl/shader_library.h"
-#include "renderer/passes/frame_context.h"
+#include "renderer/passes/gradient_pass.h"
 #include "shared/denoise_params.h"
 
 namespace afterglow {
@@ -20,13 +20,7 @@ struct LightPairs {
 /// See shaders/denoise/gradient.comp and docs/pipeline.md.
 class LightPairsPass {
 public:
-    struct Inputs {
-        const GpuTexture& raw;
-        const GpuTexture& previousRaw;
-        const GpuTexture& samples;
-        const GpuTexture& guides;
-        const GpuTexture* sampleRaw = nullptr; ///< per stratum; empty: the samples are in `raw`
-    };
+    using Inputs = GradientPass::Inputs;
     struct Outputs {
         LightPairs pairs;
         GpuTexture& changed; ///< R32UI, one texel: strata whose light has changed

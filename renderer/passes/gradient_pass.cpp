@@ -15,17 +15,19 @@ namespace {
 
 const Defines kExtra{{"EXTRA_SAMPLES", "1"}};
 
-std::vector<Binding> readsOf(const GradientPass::Inputs& in) {
-    std::vector<Binding> reads{{"raw", in.raw},
-                               {"previousRaw", in.previousRaw},
-                               {"samples", in.samples},
-                               {"guides", in.guides}};
-    if (in.sampleRaw)
-        reads.emplace_back("sampleRaw", *in.sampleRaw);
+} // namespace
+
+std::vector<Binding> GradientPass::Inputs::bindings() const {
+    std::vector<Binding> reads{
+        {"raw", raw}, {"previousRaw", previousRaw}, {"samples", samples}, {"guides", guides}};
+    if (sampleRaw)
+        reads.emplace_back("sampleRaw", *sampleRaw);
     return reads;
 }
 
-} // namespace
+Defines GradientPass::Inputs::defines() const {
+    return sampleRaw ? kExtra : Defines{};
+}
 
 GradientPass::GradientPass(ShaderLibrary& shaders)
     : shaders_(shaders), merged_(shaders.compute("denoise/gradient.comp")),
@@ -35,17 +37,16 @@ void GradientPass::run(FrameContext& frame, const Inputs& in, const Outputs& out
                        const gpu::GradientParams& params) {
     const auto scope = frame.pass("gradient", {&out.gradient});
     const std::array<Binding, 1> writes{Binding{"gradient", out.gradient}};
-    (in.sampleRaw ? extra_ : merged_).dispatch(out.gradient.size(), params, readsOf(in), writes);
+    (in.sampleRaw ? extra_ : merged_).dispatch(out.gradient.size(), params, in.bindings(), writes);
 }
 
 GradientPass::Findings::Region GradientPass::inspect(FrameContext& frame, const Inputs& in,
                                                      const gpu::GradientParams& params,
                                                      glm::ivec2 stratum, PixelReadback& readback) {
-    ComputeProgram& program =
-        shaders_.compute("denoise/gradient.comp", inspecting(in.sampleRaw ? kExtra : Defines{}));
+    ComputeProgram& program = shaders_.compute("denoise/gradient.comp", inspecting(in.defines()));
     const std::array<Binding, 1> writes{findings_.start(stratum, in.samples.size())};
     const auto scope = frame.timer.scope(frame.prefix + "inspect gradient");
-    program.dispatch(glm::ivec2(1), params, readsOf(in), writes);
+    program.dispatch(glm::ivec2(1), params, in.bindings(), writes);
     return findings_.copyTo(readback);
 }
 

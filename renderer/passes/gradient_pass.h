@@ -40,6 +40,10 @@ public:
         const GpuTexture& samples;
         const GpuTexture& guides;
         const GpuTexture* sampleRaw = nullptr; ///< per stratum; empty: the samples are in `raw`
+
+        std::vector<Binding> bindings() const;
+        /// Returns what compiles the shader for them.
+        Defines defines() const;
     };
     struct Outputs {
         GpuTexture& gradient; ///< delta, Delta, mean luminance, variance of luminance

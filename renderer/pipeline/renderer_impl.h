@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What Renderer is made of. Seen by its own .cpp files alone.
+// Members of Renderer. Seen by its own .cpp files alone.
 
 #include "renderer/passes/composite_pass.h"
 #include "renderer/passes/exposure_pass.h"

@@ -1,8 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 
-// How light has changed at each stratum: by how much, whether by one factor, and how sure that is.
-// "Change of light" in docs/pipeline.md. Our own; the samples are those of Schied et al. 2018,
+// Tells of each stratum by how much its light has changed, and whether by one factor. "Change of
+// light" in docs/pipeline.md. Our own; the samples are those of Schied et al. 2018,
 // section 4.2, whose lambda is that of luminance alone.
 
 #include "lib/color.glsl"

@@ -28,8 +28,8 @@ writeonly uniform image2D filtered;
 Float4Texture(strataGuides); // xyz: normal; w: depth, 0 marks background
 Float2Texture(strataSlope);  // meters per pixel
 
-// What is averaged with the weights of the filter. All of it is a sum over samples but the mean
-// luminance, and the variance.
+// Contents of a stratum, which are averaged with the weights of the filter; the variance with their
+// squares.
 struct Content {
 #ifdef CHANNELS
     vec4 before, now; // now.a: mean luminance

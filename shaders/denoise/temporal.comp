@@ -175,8 +175,8 @@ vec3 clampToNeighborhood(vec3 color, ivec2 p) {
     return count == 0.0 ? color : clamp(color, mean - reach, mean + reach);
 }
 
-// How far a luminance is outside the percentiles of the raw signal around, in widths of their
-// range.
+// Returns by how much a luminance is outside the percentiles of the raw signal around, in widths of
+// their range.
 float lambdaOfRange(ivec2 p, float historyLuminance) {
     // Centers of tiles lie at 8 t + 4 in pixel coordinates. A tile counts by its foreground.
     vec2 position = (vec2(p) + 0.5) / float(kTileSize) - 0.5;

@@ -14,13 +14,13 @@ struct EdgeStopping {
     int step;             // distance between taps in pixels (or strata): 1, 2, 4, ...
 };
 
-// How lambda, known per stratum, is fetched at a pixel.
+// Fetches of lambda, known per stratum, at a pixel.
 const int kLambdaNearest = 0;
 const int kLambdaBilinear = 1;
 const int kLambdaMax = 2;   // the largest of the 3x3 strata around
 const int kLambdaLight = 3; // the mean of the 3x3 strata around, weighted by their light
 
-// How the history length follows alpha.
+// Laws by which the history length follows alpha.
 const int kHistoryEffective = 0; // 1/N' = (1 - a)^2 / N + a^2: the effective sample count, exact
 const int kHistoryFrames = 1;    // N' = N + 1: lambda is ignored, as in Q2VKPT
 const int kHistoryPower = 2;     // N (1 - lambda)^10 before the blend, N' = N + 1; as in Q2RTX
@@ -30,7 +30,7 @@ const int kLambdaFromNothing = 0;  // 0 everywhere
 const int kLambdaFromGradient = 1; // of the strata, fetched as lambdaFetch says
 const int kLambdaFromRange = 2;    // how far the history is outside the raw luminance around
 
-// What lambda does.
+// Uses of lambda.
 const int kLambdaBlends = 0; // alpha' = (1 - lambda) alpha + lambda; Schied et al. 2018
 const int kLambdaCuts = 1;   // the history length is cut, and alpha follows from it; as in NRD
 const int kLambdaCounts = 2; // a change takes samples from the history; filter `counted`
@@ -61,7 +61,7 @@ struct PercentileParams {
     float unused0, unused1;
 };
 
-// What a gradient sample says.
+// Values of a gradient sample: with its sign, or its size.
 const int kGradientSigned = 0;
 const int kGradientAbsolute = 1;
 
@@ -76,7 +76,7 @@ struct GradientParams {
     float unused0;
 };
 
-// What a relative change of light is taken of.
+// Quantities whose relative change is lambda.
 const int kChangeOfLuminance = 0;
 const int kChangeOfChannels = 1; // the largest of the channels' changes
 
@@ -111,7 +111,7 @@ const int kHistoryInstance = 3;  // another instance was seen there
 const int kHistoryDepth = 4;
 const int kHistoryNormal = 5;
 
-// What became of the surface sample that a stratum of the frame before offered as a gradient
+// Fates of the surface sample that a stratum of the frame before offered as a gradient
 // sample.
 const uint kFateNone = 0u;       // there was no frame before, or no samples are carried
 const uint kFateCarried = 1u;    // it is the sample of the stratum where it landed

@@ -213,8 +213,8 @@ TEST_CASE("where light is even, competitors are as quiet as A-SVGF and almost as
     // A clamp to the mean of 5x5 pixels is one more blur.
     CHECK(clamp.rmse < 1.12 * svgf.rmse);
     CHECK(clamp.flicker < 1.15 * svgf.flicker);
-    CHECK(percentile.rmse < 1.25 * svgf.rmse); // what is fed back is not blurred: rarer samples
-    CHECK(percentile.flicker < 1.4 * svgf.flicker);
+    CHECK(percentile.rmse < 1.19 * svgf.rmse); // what is fed back is not blurred: rarer samples
+    CHECK(percentile.flicker < 1.3 * svgf.flicker);
 }
 
 TEST_CASE(

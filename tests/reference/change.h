@@ -11,8 +11,8 @@
 
 namespace afterglow::reference {
 
-/// How near the nearest decision came to its threshold, in parts of what was compared. A comparison
-/// in a smaller precision is fair only where this is well above that precision.
+/// Keeps the least distance of a decision from its threshold, relative to what was compared. A
+/// comparison in a smaller precision is fair only where that is well above this precision.
 class Margin {
 public:
     void add(double value, double threshold) {
@@ -115,7 +115,7 @@ struct ChangeResult {
     Margin margin{};
 };
 
-/// How much light has changed, whether by one factor, and how sure that is.
+/// Returns by how much light has changed, and whether by one factor.
 inline ChangeResult change(const LightPairImages& in, const gpu::ChangeParams& params) {
     const glm::ivec2 strata = in.now.size();
     ChangeResult out{Image<double>(strata), Image<glm::dvec4>(strata)};

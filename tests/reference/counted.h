@@ -56,7 +56,7 @@ double fetchOfStrata(glm::ivec2 strata, glm::ivec2 p, int fetch, At at, Weight w
     return total > 0.0 ? sum / total : 0.0;
 }
 
-/// What is known of a change of light; one texel a stratum.
+/// A change of light; one texel a stratum.
 struct ChangeImages {
     const Image<float>& lambda;
     const Image<glm::vec4>& change; ///< E, v, scale, weight

@@ -31,12 +31,12 @@ struct TemporalInputs {
 };
 struct TemporalResult {
     Image<glm::dvec4> accumulated, moments, control;
-    /// How near the nearest of all validity decisions came to its threshold; a comparison in a
+    /// Least distance of a validity decision from its threshold; a comparison in a
     /// smaller precision is fair only where this is well above that precision.
     double margin = std::numeric_limits<double>::infinity();
 };
 
-/// What the previous frame remembers about a surface point.
+/// History of a surface point in the frame before.
 struct History {
     glm::dvec3 color{0.0};
     glm::dvec2 moments{0.0};

@@ -6,7 +6,7 @@
 
 namespace afterglow::test {
 
-// What the tests of the competing filters share.
+// Parts that the tests of the competing filters share.
 
 inline const gpu::PercentileParams kPercentiles[] = {{0.1f, 0.9f, 0.0f, 0.0f},
                                                      {0.0f, 1.0f, 0.0f, 0.0f},
