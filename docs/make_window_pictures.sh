@@ -94,7 +94,7 @@ picture difference cornell T frames:30 wait:20 l frames:3
 picture inspector cornell F2 frames:30 l frames:1 move:1000,430 ctrl+i wait:1
 # The light goes out in the frame whose passes are looked at, up to the last iteration of the gradient.
 picture passes hall F3 frames:16 l $(printf 'period %.0s' $(seq 19)) wait:4
-picture lambda cornell frames:20 2 frames:1 v v v v v v v v v v v v v v v v v v v
+picture lambda cornell frames:20 2 frames:1 v v v v v v v v v v v v v v v v v v v v v v
 picture oracle cornell minus minus frames:30 1 frames:1 u wait:130 U U U U U
 picture presets cornell frames:20 F7 wait:1
 picture tour cornell F6 wait:2 Next wait:2 Next wait:2 Next wait:2 Next wait:2 Next wait:12 p

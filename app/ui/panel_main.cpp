@@ -177,8 +177,9 @@ void filterButtons(ViewState& state) {
             chooseFilter(state, filter);
         tooltip(std::string(describe(filter)) + "\nF and Shift F go through the filters.");
     }
-    ImGui::SameLine(0.0f, gap);
-    actionButton(state, {Key::F7}, width);
+    if (place % kInRow != 0)
+        ImGui::SameLine(0.0f, gap);
+    actionButton(state, {Key::F7}, ImGui::GetContentRegionAvail().x); // the rest of the row
 }
 
 void gradientSamples(Panes& panes) {
